@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <initializer_list>
 #include <string>
+#include <vector>
 
 #include "base/read_number.hpp"
 #include "stickslip/error.hpp"
@@ -29,14 +31,58 @@ double reduced(double azimuth) {
   return turn < 0 ? turn + 360 : turn + 0.0;  // no -0
 }
 
+bool is_orientation(std::string_view text) { return azimuth_of(text) || upward(text) != 0; }
+
+bool points_alike(const std::string& a, const std::string& b) {
+  return azimuth_of(a) == azimuth_of(b) && upward(a) == upward(b);
+}
+
+/// The words of a text outside brackets, and the hyphens and slashes between them.
+std::vector<std::string> words(std::string_view text) {
+  std::vector<std::string> found;
+  std::string word;
+  const auto end_word = [&] {
+    if (!word.empty()) found.push_back(word);
+    word.clear();
+  };
+  int depth = 0;
+  for (const char c : text) {
+    const bool opens = c == '(' || c == '[', closes = c == ')' || c == ']';
+    depth = opens ? depth + 1 : closes && depth > 0 ? depth - 1 : depth;
+    if (depth > 0 || closes || c == ' ' || c == '\t' || c == '_' || c == ',' || c == ';' || c == ':' || c == '=') {
+      end_word();
+    } else if (c == '-' || c == '/') {
+      end_word();
+      found.emplace_back(1, c);
+    } else {
+      word += c;
+    }
+  }
+  end_word();
+  return found;
+}
+
+/// The direction of a SEED channel of a motion, such as HNE, or BHZ00 with its location: band, instrument, direction.
+std::string orientation_of_channel(std::string_view code) {
+  if (code.size() == 5 && code[3] >= '0' && code[3] <= '9' && code[4] >= '0' && code[4] <= '9')
+    code = code.substr(0, 3);
+  if (code.size() == 3 && (code[2] == '1' || code[2] == '2'))  // NS1, UD2: of a pair of the Japanese networks
+    if (const std::string pair(code.substr(0, 2)); is_one_of(pair, {"NS", "EW", "UD"})) return pair;
+  const auto is = [&](std::size_t place, std::string_view letters) {
+    return letters.find(code[place]) != std::string_view::npos;
+  };
+  return code.size() == 3 && is(0, "FGDCESHBMLVUR") && is(1, "HLGNM") && is(2, "ZNE") ? std::string(1, code[2])
+                                                                                      : std::string();
+}
+
 }  // namespace
 
 std::optional<double> azimuth_of(std::string_view orientation) {
   std::string text = plain(orientation);
   for (const char* unit : {"DEGREES", "DEG", "\xC2\xB0"})
     if (text.ends_with(unit)) text.resize(text.size() - std::string_view(unit).size());
-  if (is_one_of(text, {"N", "NORTH", "N-S", "NS"})) return 0;
-  if (is_one_of(text, {"E", "EAST", "E-W", "EW"})) return 90;
+  if (is_one_of(text, {"N", "NORTH", "N-S", "N/S", "NS", "S-N", "SN", "NORTH-SOUTH"})) return 0;
+  if (is_one_of(text, {"E", "EAST", "E-W", "E/W", "EW", "W-E", "WE", "EAST-WEST"})) return 90;
   if (is_one_of(text, {"S", "SOUTH"})) return 180;
   if (is_one_of(text, {"W", "WEST"})) return 270;
   if (text.size() > 2 && is_one_of(text.substr(0, 1), {"N", "S"}) &&
@@ -52,8 +98,60 @@ std::optional<double> azimuth_of(std::string_view orientation) {
 
 int upward(std::string_view orientation) {
   const std::string text = plain(orientation);
-  if (is_one_of(text, {"UP", "U", "Z", "UD", "U-D", "V", "VER", "VERT", "VRT", "VERTICAL"})) return 1;
-  return is_one_of(text, {"DOWN", "DWN", "DN", "D"}) ? -1 : 0;
+  if (is_one_of(text, {"UP", "U", "Z", "UD", "U-D", "U/D", "UP-DOWN", "UPWARD", "UPWARDS", "V", "VER", "VERT", "VERT.",
+                       "VRT", "VERTICAL"}))
+    return 1;
+  return is_one_of(text, {"DOWN", "DWN", "DN", "D", "DOWNWARD", "DOWNWARDS"}) ? -1 : 0;
+}
+
+std::string orientation_in(std::string_view text) {
+  if (is_orientation(text)) return std::string(text);
+  // Words of letters and digits; two that a hyphen or a slash joins are one if that is an orientation.
+  std::string found;
+  bool several = false;
+  const auto add = [&](const std::string& orientation) {
+    if (found.empty())
+      found = orientation;
+    else
+      several = several || !points_alike(found, orientation);
+  };
+  const std::vector<std::string> parts = words(text);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto at = [&](std::size_t k) { return i + k < parts.size() ? parts[i + k] : std::string(); };
+    const bool is_joined = at(1) == "-" || at(1) == "/";
+    const std::string both = is_joined ? at(0) + "-" + at(2) : std::string();
+    const bool is_number = detail::read_number(at(0)).has_value();
+    if (is_joined && is_orientation(both)) {
+      add(both);
+      i += 2;
+    } else if (is_number && is_one_of(plain(at(1)), {"DEG", "DEGREES", "\xC2\xB0"})) {
+      add(at(0));
+      ++i;
+    } else if (is_one_of(plain(at(0)), {"UP", "DOWN"}) && (at(1) == "-" || (i > 0 && parts[i - 1] == "-"))) {
+      continue;  // made-up, cool-down
+    } else if (!is_number && at(0) != "-" && is_orientation(at(0))) {
+      add(at(0));
+    } else if (const std::string of_channel = orientation_of_channel(at(0)); !of_channel.empty()) {
+      add(of_channel);
+    }
+  }
+  return several ? std::string() : found;
+}
+
+std::string orientation_in_file_name(std::string_view name) {
+  name = name.substr(std::min(name.find_last_of("/\\") + 1, name.size()));
+  // The extension of the Japanese networks, or what follows the last mark of the stem.
+  const std::size_t point = name.rfind('.');
+  if (point != std::string_view::npos) {
+    std::string extension = plain(name.substr(point + 1));
+    if (extension.size() == 3 && extension[2] >= '1' && extension[2] <= '2') extension.pop_back();
+    if (is_one_of(extension, {"NS", "EW", "UD", "UP", "VER", "VERT"})) return extension;
+  }
+  const std::string_view stem = name.substr(0, point);
+  const std::string end = plain(stem.substr(stem.find_last_of("-_. ") + 1));  // from the first if there is no mark
+  return is_one_of(end, {"N", "E", "S", "W", "NS", "EW", "UD", "UP", "DN", "DWN", "DOWN", "V", "VER", "VERT", "Z"})
+             ? end
+             : std::string();
 }
 
 std::string orientation_at(double azimuth) { return detail::shortest(reduced(azimuth)); }

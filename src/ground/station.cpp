@@ -33,7 +33,7 @@ std::string label(const RecordComponent& component) {
   return !orientation.empty() ? orientation : !component.name.empty() ? component.name : component.motion.name();
 }
 
-/// Checks the properties that two components must share: step or times, start, and the number of samples unless a
+/// Checks the properties that two components must share: sensor, step or times, start, and the number of samples unless a
 /// common length is requested.
 void require_one_time_base(const RecordComponent& a, const RecordComponent& b, bool common_length) {
   const GroundMotion &one = a.motion, &other = b.motion;
@@ -44,6 +44,7 @@ void require_one_time_base(const RecordComponent& a, const RecordComponent& b, b
   const auto step = [](const GroundMotion& m) {
     return std::isnan(m.dt()) ? std::string("uneven times") : detail::shortest(m.dt()) + " s";
   };
+  if (!a.sensor.empty() && !b.sensor.empty() && a.sensor != b.sensor) differ("sensor", a.sensor, b.sensor);
   if (step(one) != step(other)) differ("time step", step(one), step(other));
   if (!a.start.empty() && !b.start.empty() && a.start != b.start) differ("start", a.start, b.start);
   if (one.samples() != other.samples() && !common_length)

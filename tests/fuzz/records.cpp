@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "fuzz.hpp"
+#include "ground/agency_files.hpp"
 #include "ground/record_files.hpp"
 #include "stickslip/ground/records.hpp"
 #include "stickslip/ground/station.hpp"
@@ -164,6 +165,12 @@ std::vector<std::string> fuzz_seeds() {
       cosmos_channel("HNE", cosmos_data + cosmos_velocity()) + cosmos_channel("", cosmos_data),
       knet(),
       dyna(),
+      afad(),
+      cwb(),
+      asa(),
+      csmnc_corrected(),
+      sigma(),
+      bbp(),
       csmip_channel() + csmip_channel("Up"),
       csmip_uncorrected(true) + csmip_uncorrected(false),
       "Time (s);NS (g);UD (gal)\n0,00;0,1;1\n0,01;-2,5;2\n0,02;3;1e-3\n",

@@ -22,7 +22,7 @@ namespace {
 constexpr double g = standard_gravity;
 
 GroundMotion read(const std::string& content, const RecordOptions& options = {}) {
-  return parse_record(content, "made_up.txt", options);
+  return parse_record(content, "invented.txt", options);
 }
 
 std::vector<double> samples(const GroundMotion& motion) {
@@ -51,7 +51,7 @@ const RecordOptions in_g{.units = "g"};
 
 TEST_CASE("every format has its row in the table, and the error names them all", "[records]") {
   const std::vector<RecordFormat> formats = record_formats();
-  CHECK(formats.size() == 9);
+  CHECK(formats.size() == 16);
   for (const RecordFormat& format : formats) {
     refuses("nothing\n", {std::string(format.name).c_str()});
     for (const std::string_view column : {format.name, format.units, format.time_step, format.extension})
@@ -61,8 +61,8 @@ TEST_CASE("every format has its row in the table, and the error names them all",
 
 TEST_CASE("content in memory is read as a file is", "[records]") {
   CHECK(parse_record(peer("5 .01 NPTS, DT"), "folder/a.AT2") == read(peer("5 .01 NPTS, DT")));
-  CHECK(parse_record("0 1\n1 2\n", "folder/a.b.csv", in_g).name() == "a.b");
-  CHECK(parse_record("0 1\n1 2\n", "x.zip::folder/a.csv", in_g).name() == "a");
+  CHECK(parse_record("0 1\n.1 2\n", "folder/a.b.csv", in_g).name() == "a.b");
+  CHECK(parse_record("0 1\n.1 2\n", "x.zip::folder/a.csv", in_g).name() == "a");
   CHECK_THROWS_WITH(parse_record("hello\n", "folder/a.AT2"), ContainsSubstring("read_record: folder/a.AT2: no known"));
 }
 
@@ -112,7 +112,7 @@ TEST_CASE("a damaged K-NET file is refused", "[records][errors]") {
   refuses(knet("N-S", 11), {"more than the 10 samples"});
   for (const char* scale : {"2000(gal)/0", "2000/8000000", "(gal)/8000000", "2000(gal)/", "2000(gal)", "2000(gal)/8x"})
     refuses(knet("N-S", 10, scale), {"line 14", "scale factor", scale});
-  refuses(replaced(knet(), "100Hz", "0Hz"), {"made_up.txt"});
+  refuses(replaced(knet(), "100Hz", "0Hz"), {"invented.txt"});
   refuses(replaced(knet(), "100Hz", "many"), {"line 11", "'Sampling Freq(Hz)'", "many"});
   refuses(replaced(knet(), "Dir. ", "Way. "), {"no line 'Dir.'"});
 }
@@ -188,7 +188,7 @@ TEST_CASE("formats that begin alike are told apart", "[records]") {
   CHECK(record_format(replaced(geonet(), "Corrected", "Uncorrected"))->name == "GeoNet V1A and V2A");
   CHECK(record_format(csmip_channel())->name == "CSMIP V1 and V2");
   CHECK(record_format(csmip_uncorrected(true))->name == "CSMIP V1 and V2");
-  CHECK(record_format("0.1\n0.2\n")->name == "one column of acceleration");
+  CHECK(record_format("0.1\n0.2\n")->name == "columns of numbers");
   CHECK(!record_format("nothing\n"));
   CHECK(!record_format(std::string(4, '\0')));
 }
@@ -211,14 +211,14 @@ TEST_CASE("one column needs its time step, and units", "[records]") {
 TEST_CASE("a time step that is given may not differ from the file's", "[records][errors]") {
   CHECK(read(peer("5 .01 NPTS, DT"), {.dt = 0.01}).dt() == 0.01);
   refuses(peer("5 .01 NPTS, DT"), {"states a time step of 0.01 s, dt given is", "0.02 s"}, {.dt = 0.02});
-  refuses("0 1\n1 2\n2 3\n4 4\n", {"states the times", "0.1 s"}, {.units = "g", .dt = 0.1});
+  refuses("t a\n0 1\n1 2\n2 3\n4 4\n", {"states the times", "0.1 s"}, {.units = "g", .dt = 0.1});
 }
 
 TEST_CASE("more columns are several components on the same times", "[records]") {
   for (const char* header : {"Time (s), NS (g), EW (g), UD (g)", "# Time (s);NS (g);EW (g);UD (g)",
                              "# units: g\n# Time, NS, EW, UD", "# units: g\nt NS EW UD", "# units: g\nt\tNS\tEW\tUD"}) {
     const std::string text = std::string(header) + "\n0.00,1,2,3\n0.01,4,5,6\n0.02,7,8,9\n";
-    const std::vector<RecordComponent> all = parse_components(text, "made_up.txt");
+    const std::vector<RecordComponent> all = parse_components(text, "invented.txt");
     REQUIRE(all.size() == 3);
     CHECK(all[0].name == "NS");
     CHECK(all[1].motion.orientation() == "EW");
@@ -230,13 +230,14 @@ TEST_CASE("more columns are several components on the same times", "[records]") 
   }
   // Each column has its own units.
   const std::string mixed = "t (s), a (g), b (gal)\n0,1,1\n1,2,2\n";
-  CHECK(parse_components(mixed, "made_up.txt")[1].units == "gal");
-  CHECK(parse_components("t (s), a (CM/SEC2)\n0,1\n1,2\n", "made_up.txt")[0].units == "cm/s^2");
-  CHECK(parse_components("0,1\n1,2\n", "made_up.txt", in_g)[0].units.empty());  // given, not stated
+  CHECK(parse_components(mixed, "invented.txt")[1].units == "gal");
+  CHECK(parse_components("t (s), a (CM/SEC2)\n0,1\n1,2\n", "invented.txt")[0].units == "cm/s^2");
+  CHECK(parse_components("0,1\n.1,2\n", "invented.txt", in_g)[0].units.empty());  // given, not stated
   CHECK(read(mixed, {.component = "a"}).acceleration()[0] == g);
   CHECK(read(mixed, {.component = "b"}).acceleration()[0] == 0.01);
-  refuses("0 1 2 3\n1 2 3\n", {"line 2", "expected 4 columns as in line 1, got 3", "known formats are"}, in_g);
-  refuses("1 2 3 4\n0.5 2 3 4\n", {"line 2", "first column must be time", "'0.5'", "known formats are"}, in_g);
+  refuses("0 1 2 3\n1 2 3\n2 3 4 5\n", {"line 2", "expected 4 columns as in line 1, got 3", "record_formats lists"},
+          in_g);
+  refuses("1 20 3\n0.5 19 3\n1 18 3\n", {"line 1", "first of 3 columns is not time", "label the columns"}, in_g);
 }
 
 TEST_CASE("a comma is a decimal point where something else parts the columns", "[records]") {
@@ -249,13 +250,13 @@ TEST_CASE("a comma is a decimal point where something else parts the columns", "
     CHECK(samples(motion) == std::vector<double>{0.1 * g, -2.5 * g, 3 * g});
   }
   // A comma alone separates columns, and so does one next to a blank; with a point in any row it is not a decimal sign.
-  CHECK(read("0,1\n1,5\n", in_g).acceleration()[1] == 5 * g);
-  CHECK(read("0, 1\n1, 5\n", in_g).acceleration()[1] == 5 * g);
+  CHECK(read("0,1\n.1,5\n", in_g).acceleration()[1] == 5 * g);
+  CHECK(read("0, 1\n.1, 5\n", in_g).acceleration()[1] == 5 * g);
   refuses("0,00;0,1\n0.01;0.5\n", {"line 2", "expected 4 columns as in line 1, got 2"}, in_g);
 }
 
 TEST_CASE("a gap is refused unless it is asked for", "[records]") {
-  std::string text = "# units: g\n";
+  std::string text = "# units: g\nt a\n";
   for (int i = 0; i < 200; ++i) text += print("%.2f", 0.01 * i + (i < 120 ? 0 : 0.11)) + " 0.1\n";
   refuses(text, {"a gap of 0.12 s after 1.19 s", "median time step, 0.01 s", "pass gaps"});
   const GroundMotion kept = read(text, {.gaps = true});
@@ -263,8 +264,8 @@ TEST_CASE("a gap is refused unless it is asked for", "[records]") {
   CHECK(kept.time(120) == 1.31);
   // Up to ten steps are not a gap.
   CHECK(read(replaced(text, "1.19 0.1\n", "1.19 0.1\n1.25 0.2\n")).samples() == 201);
-  CHECK(std::isnan(read("0 1\n1 2\n2 3\n12 4\n", in_g).dt()));
-  refuses("0 1\n1 2\n2 3\n12.5 4\n", {"a gap of 10.5 s after 2 s"}, in_g);
+  CHECK(std::isnan(read("t a\n0 1\n1 2\n2 3\n12 4\n", in_g).dt()));
+  refuses("t a\n0 1\n1 2\n2 3\n12.5 4\n", {"a gap of 10.5 s after 2 s"}, in_g);
 }
 
 TEST_CASE("one column of a real record has the peaks its list states", "[records][real]") {

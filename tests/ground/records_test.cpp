@@ -38,7 +38,7 @@ class Folder {
 
   const fs::path& path() const { return path_; }
 
-  fs::path write(const std::string& content, const std::string& name = "made_up.txt") const {
+  fs::path write(const std::string& content, const std::string& name = "invented.txt") const {
     std::ofstream(path_ / name, std::ios::binary) << content;
     return path_ / name;
   }
@@ -169,7 +169,7 @@ TEST_CASE("numbers are read as Fortran and C print them", "[records]") {
 
 TEST_CASE("fields that overflow are refused with their line, in columns too", "[records]") {
   const std::string overflow = replaced(cosmos_data, "1000.12345", "**********");
-  says(refusal(cosmos_channel("HNE", overflow)), {"line 50", "number 3 of the 10", "*****"});
+  says(refusal(cosmos_channel("HNE", overflow)), {"line 50", "number 2 of the 10", "*****"});
   says(refusal("****,0.5\n0.1,2\n0.2,3\n", {.units = "g"}), {"line 1", "finite numbers", "****"});
   says(refusal(",0.5\n0.1,2\n0.2,3\n", {.units = "g"}), {"line 1", "finite numbers"});
 }
@@ -203,7 +203,7 @@ TEST_CASE("a bad time step or too few samples are refused", "[records]") {
   says(refusal(peer("NPTS= 5, DT= -.01 SEC")), {"dt must be positive", "got -0.01 s"});
   says(refusal(peer("NPTS= 1, DT= .01 SEC", "0.5\n")), {"at least two samples, got 1"});
   says(refusal(smc("2 CORRECTED ACCELEROGRAM", 10, 0)), {"sampling rate", "got 0"});
-  says(refusal(smc("2 CORRECTED ACCELEROGRAM", 10, 1.7e38)), {"sampling rate", "1.7e+38"});
+  says(refusal(smc("2 CORRECTED ACCELEROGRAM", 10, 1.7e38)), {"no sampling rate", "uneven"});
   says(refusal(replaced(cosmos_channel("HNE", cosmos_data), "       5.000000", "    -999.000000")),
        {"dt must be positive", "-0.999"});
 }
@@ -290,7 +290,7 @@ TEST_CASE("two columns may be parted by a comma, a semicolon, a tab or blanks", 
         read(replaced("Time (s),Acceleration (cm/s^2)\n0.00,1\n0.01,-2.5\n\n0.02,3e1\n", ",", mark));
     CHECK(motion.dt() == 0.01);
     CHECK(samples(motion) == std::vector<double>{0.01, -2.5 * 0.01, 30 * 0.01});
-    CHECK(motion.name() == "made_up");
+    CHECK(motion.name() == "invented");
   }
 }
 
@@ -329,14 +329,14 @@ TEST_CASE("headers of many megabytes are read or refused", "[records]") {
   };
   says(refusal("a\nb\nACCELERATION G\nNPTS DT " + many("1", 8'000'000) + "\n1 2 3\n"), {"line 4", "expected 'NPTS="});
   says(refusal(peer(many("NPTS DT NPTSDT "))), {"line 4", "expected 'NPTS="});
-  says(refusal("time (s) acc (" + many("sec", 8'000'000) + ")\n0,1\n1,2\n"), {"unknown unit of acceleration 'secsec"});
+  says(refusal("time (s) acc (" + many("sec", 8'000'000) + ")\n0,1\n.1,2\n"), {"states no units of acceleration"});
   for (const char* part : {"g's", "**", "s/s", "(", "[)", "unit", "unit ", "(s) ", "\xC2\xB2"})
-    CHECK(refusal("# " + many(part) + "\n0,1\n1,2\n").size() < 400);
+    CHECK(refusal("# " + many(part) + "\n0,1\n.1,2\n").size() < 400);
   says(refusal(replaced(geonet(), "Instrument corrected data", "data in units of " + many("1")), {.component = "1"}),
        {"line 11", "units of 1.00 mm/s/s"});
   says(refusal("0,1\n0.1," + many("1")), {"line 2", "finite numbers"});
   says(refusal("0,1\n0.1," + many("1 ,")), {"line 2", "expected 2 columns as in line 1"});
-  CHECK(read("# " + many("title ") + "\n0,1\n1,2\n", {.units = "g"}).name().size() < 300);
+  CHECK(read("# " + many("title ") + "\n0,1\n.1,2\n", {.units = "g"}).name().size() < 300);
   const std::string channel = cosmos_channel("HNE", many("0 accel pts\nEnd\n"));
   says(refusal(replaced(channel, "Made-up Earthquake", std::string(1'000'000, 'x'))), {"1 HNE, 2 HNE", "and so on to"});
 }
@@ -364,16 +364,16 @@ TEST_CASE("names and messages are valid UTF-8", "[records]") {
                                     Name{"a\xC2\x9B"
                                          "31m",
                                          "a 31m"}}) {  // of eight bits
-    CHECK(read("# x" + bytes + " y\n0,1\n1,2\n", in_g).name() == "x" + name + " y");
+    CHECK(read("# x" + bytes + " y\n0,1\n.1,2\n", in_g).name() == "x" + name + " y");
     says(refusal("# x\n0,1\nx" + bytes + ",2\n", in_g), {"line 3", ("got 'x" + replaced(name, " [", " [")).c_str()});
   }
-  const std::string cut = read("# " + std::string(255, 'x') + "\xC3\xBC" + "\n0,1\n1,2\n", in_g).name();
+  const std::string cut = read("# " + std::string(255, 'x') + "\xC3\xBC" + "\n0,1\n.1,2\n", in_g).name();
   CHECK(cut == std::string(255, 'x') + "...");
 }
 
 TEST_CASE("a file name that is not UTF-8 names the motion and the error in UTF-8", "[records]") {
   const Folder folder;
-  const fs::path file = folder.write("0,1\n1,2\n",
+  const fs::path file = folder.write("0,1\n.1,2\n",
                                      "\xFF"
                                      "a.csv");
   CHECK(read_record(file, {.units = "g"}).name() ==
@@ -389,12 +389,12 @@ TEST_CASE("a file name that is not UTF-8 names the motion and the error in UTF-8
 }
 
 TEST_CASE("names come out in UTF-8", "[records]") {
-  CHECK(read("# D\xFCzce\n# units: g\n0 1\n1 2\n").name() == "D\xC3\xBCzce");
-  CHECK(read("# D\xC3\xBCzce\n# units: g\n0 1\n1 2\n").name() == "D\xC3\xBCzce");
+  CHECK(read("# D\xFCzce\n# units: g\n0 1\n.1 2\n").name() == "D\xC3\xBCzce");
+  CHECK(read("# D\xC3\xBCzce\n# units: g\n0 1\n.1 2\n").name() == "D\xC3\xBCzce");
 }
 
 TEST_CASE("units come from labels, from a line on units, or from the caller", "[records]") {
-  const std::string rows = "0,1\n1,2\n";
+  const std::string rows = "0,1\n.1,2\n";
   const auto first = [&](const std::string& header, const RecordOptions& options = {}) {
     return read(header + rows, options).acceleration()[0];
   };
@@ -406,22 +406,19 @@ TEST_CASE("units come from labels, from a line on units, or from the caller", "[
   CHECK(first("", {.units = "g"}) == g);
   CHECK(first("t (s), a (cm/s/s)\n", {.units = "gal"}) == 0.01);
 
-  says(refusal(rows), {"made_up.txt", "no units", "pass units"});
+  says(refusal(rows), {"invented.txt", "no units", "pass units"});
   says(refusal("Time (s), Acceleration\n" + rows), {"pass units"});
   says(refusal("Time (s), Acceleration (furlong/s^2)\n" + rows), {"unknown unit", "furlong", "known are"});
   says(refusal("Time (s), Acceleration (g)\n" + rows, {.units = "m/s^2"}), {"'g'", "'m/s^2'"});
   says(refusal("Time (s), Acceleration (g)\n" + rows, {.units = "fathom"}), {"'fathom'", "known"});
-  says(refusal("Time (ms), Acceleration (g)\n" + rows), {"line 1", "seconds", "'ms'"});
-  says(refusal("Acceleration (g), Time (s)\n" + rows), {"line 1", "first column must be time", "'g'"});
 }
 
 TEST_CASE("another number of columns than in the first row is refused with its line", "[records]") {
   const RecordOptions in_g{.units = "g"};
   says(refusal("0,1\n0.1,2,3\n", in_g), {"line 2", "expected 2 columns as in line 1", "got 3"});
   says(refusal("# c\n0,1\n0.1\n", in_g), {"line 3", "expected 2 columns as in line 2", "got 1"});
-  says(refusal("0,1\n0.1,2,\n", in_g), {"line 2", "got 3"});
-  says(refusal("SOME OTHER FORMAT\n1 2 3 4 5\n"), {"line 2", "at least two rows", "known formats", "PEER AT2"});
-  says(refusal("SOME OTHER FORMAT\n1 2 3 4 5\n1 2 3 4 5\n"), {"line 3", "must be time", "known formats", "PEER AT2"});
+  says(refusal("0,1\n0.1,2,3\n", in_g), {"line 2", "got 3"});
+  says(refusal("SOME OTHER FORMAT\n4 9 3 8 5\n2 9 3 8 5\n3 9 3 8 5\n"), {"line 2", "not time", "record_formats"});
 }
 
 TEST_CASE("an invalid number in two columns is rejected with its line", "[records]") {
@@ -431,7 +428,7 @@ TEST_CASE("an invalid number in two columns is rejected with its line", "[record
     says(refusal("# made up\n0,1\n" + std::string(word) + ",2\n", in_g), {"line 3", word});
   }
   says(refusal("nan,1\n0.1,2\n", in_g), {"line 1", "nan"});
-  says(refusal("0,1\n# not a comment any more\n", in_g), {"line 2"});
+  says(refusal("0,1\nno comment\n", in_g), {"line 2"});
   says(refusal("Time (s), Acceleration (g)\n0,1\n"), {"line 2", "at least two"});
   says(refusal("Time (s), Acceleration (g)\n"), {"no known format"});
 }
@@ -522,9 +519,10 @@ TEST_CASE("times that do not increase are refused", "[records]") {
 
 TEST_CASE("a file that is not a record is rejected, with the list of formats", "[records]") {
   for (const char* text : {"hello\n", "{\"a\": 1}\n", "# only\n# comments\n", "<html>\n</html>\n"})
-    says(refusal(text), {"made_up.txt", "no known format", "PEER AT2", "COSMOS", "GeoNet", "SMC", "two columns"});
-  for (const char* text : {"", "\n\n  \n", "\xEF\xBB\xBF"}) says(refusal(text), {"made_up.txt", "empty"});
-  says(refusal(std::string("PK\3\4\0\0", 6)), {"NUL byte at offset 4"});
+    says(refusal(text),
+         {"invented.txt", "no known format", "PEER AT2", "COSMOS", "GeoNet", "SMC", "columns of numbers"});
+  for (const char* text : {"", "\n\n  \n", "\xEF\xBB\xBF"}) says(refusal(text), {"invented.txt", "empty"});
+  says(refusal(std::string("PK\3\4\0\0x", 7)), {"NUL byte at offset 4"});
 }
 
 TEST_CASE("a file that cannot be opened is told apart from one that cannot be understood", "[records]") {

@@ -78,12 +78,22 @@ GroundMotion read_record(const std::filesystem::path& file, const RecordOptions&
 ///              file in an archive
 GroundMotion parse_record(std::string_view content, const std::string& file, const RecordOptions& options = {});
 
+/// What was understood of a file, and where it stands.
+struct RecordSources {
+  std::string format{};     ///< name of its format
+  std::string units{};      ///< where the unit of acceleration stands, in words: "label of column 2 (line 1)", "given"
+  std::string time_step{};  ///< where the time step stands
+  std::string orientation{};  ///< where the orientation stands; empty where there is none
+};
+
 /// One of the components of a record.
 struct RecordComponent {
   GroundMotion motion;
-  std::string name{};   ///< as the file states it; empty if it states none
-  std::string start{};  ///< start time as the file writes it; empty if it states none
-  std::string units{};  ///< of the acceleration, as the file states it; empty if it states none
+  std::string name{};    ///< as the file states it; empty if it states none
+  std::string start{};   ///< start time as the file writes it; empty if it states none
+  std::string units{};   ///< of the acceleration, as the file states it; empty if it states none
+  std::string sensor{};  ///< where the sensor is, such as borehole, if the file says so
+  RecordSources sources{};
 };
 
 /// All components of a record in the order of the file, or the one selected by the options.
@@ -96,8 +106,8 @@ std::vector<RecordComponent> parse_components(std::string_view content, const st
 
 /// A unit of acceleration in m/s^2: `acceleration_unit("gal")` is 0.01.
 ///
-/// @param name  g, m/s^2, cm/s^2, gal, mm/s^2, ft/s^2 or in/s^2, in upper or lower case, with or without blanks; also
-///              g's, and s^2 as s2, s**2, sec2, s/s, sec/sec
+/// @param name  g, mg, %g, m/s^2, cm/s^2, gal, mm/s^2, ft/s^2 or in/s^2, in upper or lower case, with or without blanks;
+///              also g's, s^2 as s2, s**2, sec2, s/s, sec/sec, and m/s^2 as m s-2
 /// @return  [m/s^2]; g is the standard gravity, 9.80665 m/s^2
 /// @throws std::invalid_argument  unknown unit; lists the known ones
 double acceleration_unit(std::string_view name);

@@ -97,25 +97,10 @@ py::array_t<double> times_of(const GroundMotion& motion) {
   return times;
 }
 
-GroundMotion from_obspy(const py::object& trace, const std::string& units, const std::optional<std::string>& name) {
-  if (py::hasattr(trace, "traces")) {  // a Stream
-    const GroundMotion motion = py::module_::import("stickslip.motions.records")
-                                    .attr("_station_of_stream")(trace, units, name)
-                                    .cast<GroundMotion>();
-    if (py::len(trace.attr("traces")) > 1) warn_if_implausible(motion, "GroundMotion.from_obspy");
-    return motion;
-  }
-  if (!py::hasattr(trace, "data") || !py::hasattr(trace, "stats"))
-    throw py::type_error("GroundMotion: from_obspy needs one obspy Trace, got " +
-                         py::str(py::type::handle_of(trace).attr("__name__")).cast<std::string>() +
-                         "; or a Stream of the traces of one station");
-  const py::object stats = trace.attr("stats");
-  const auto orientation = py::module_::import("stickslip.motions.records")
-                               .attr("_orientation_of_channel")(py::getattr(stats, "channel", py::str("")))
-                               .cast<std::string>();
-  GroundMotion motion = make(trace.attr("data"), stats.attr("delta").cast<double>(), std::nullopt, "linear",
-                             name ? *name : py::str(trace.attr("id")).cast<std::string>(), units, std::nullopt,
-                             std::nullopt, orientation);
+GroundMotion from_obspy(const py::object& trace, const std::optional<std::string>& units,
+                        const std::optional<std::string>& name) {
+  const GroundMotion motion =
+      py::module_::import("stickslip.motions.traces").attr("motion_of")(trace, units, name).cast<GroundMotion>();
   warn_if_implausible(motion, "GroundMotion.from_obspy");
   return motion;
 }
@@ -172,15 +157,16 @@ ValueError
 Warns
 -----
 PlausibilityWarning
-    With 100 samples or more: the largest acceleration is not from 0.01 to 30 m/s^2, nor zero; or the mean is more than
+    With 100 samples or more: the largest acceleration is not from 1e-5 to 3 g, nor zero; or the mean is more than
     0.5 % of it in a motion that begins and ends at rest, as a record does: ten samples at either end within 5 % of the
     peak of the mean.
 
 Notes
 -----
 `2 * motion`, `motion / 2` and `-motion` return motions `scaled` by the factor. Methods that return a motion treat all
-components alike. `np.asarray(motion)` is `motion.acceleration`. A motion has no items: a sample is
-`motion.acceleration[i]`, a part `motion.cut(begin, end)`.)");
+components alike. `np.asarray(motion)` is `motion.acceleration`. `motion[a:b]` is the part from sample a to sample
+b - 1, with times from 0; `motion.cut(begin, end)` takes seconds. A sample is `motion.acceleration[i]`.)");
+  type.attr("__iter__") = py::none();         // it has parts, but no items
   type.attr("__array_ufunc__") = py::none();  // NumPy factors then use the operators of the motion
   const auto with_arguments = [](auto&& define) {
     define(py::arg("acceleration"), py::arg("dt") = py::none(), py::kw_only(), py::arg("times") = py::none(),
@@ -190,20 +176,20 @@ components alike. `np.asarray(motion)` is `motion.acceleration`. A motion has no
   // For what was checked when it was read.
   with_arguments([&](auto&&... arguments) { m.def("_ground_motion", &make, arguments...); });
   with_arguments([&](auto&&... arguments) { type.def(py::init(&made), arguments...); });
-  type.def_static("from_obspy", &from_obspy, py::arg("trace"), py::kw_only(), py::arg("units") = "m/s^2",
+  type.def_static("from_obspy", &from_obspy, py::arg("trace"), py::kw_only(), py::arg("units") = py::none(),
                   py::arg("name") = py::none(),
                   R"(Convert an ObsPy trace, or a stream of the components of one station, to a ground motion.
 
 Parameters
 ----------
 trace : obspy.Trace or obspy.Stream
-    One component of acceleration, not in counts: remove the response of the instrument first, as with
-    `trace.remove_response(output="ACC")`. The samples are copied and must have no gaps. The last letter of a channel
-    code of three letters is the orientation: N, E, or Z for up; so are the codes NS, EW and UD. A stream of one trace
-    is that trace. A stream of several holds the components of one station, as for `read_station`; the axis is the first
-    horizontal component.
+    One component of acceleration without gaps, as after `trace.remove_response(inventory, output="ACC")`; the samples
+    are copied. Counts are multiplied by `trace.stats.calib` unless it is 1. The last letter of a channel code of three
+    letters is the orientation: N, E, or Z for up; so are the codes NS, EW and UD. A stream of one trace is that trace.
+    A stream of several holds the components of one station, as for `read_station`; the axis is the first horizontal
+    component.
 units : str, optional
-    Unit of the samples, as for the constructor. ObsPy does not state it; `remove_response` returns m/s^2.
+    Unit of the samples, as for the constructor. Default: the one that the trace states, else m/s^2.
 name : str, optional
     Default: the id of the trace; for a station, that of the trace along the axis.
 
@@ -217,7 +203,9 @@ Raises
 TypeError
     An object that is neither a trace nor a stream.
 ValueError
-    A masked sample (a gap), or one that is not finite; a stream that is not one station, as for `read_station`.
+    Velocity, displacement or counts, by the processing that the trace states, its unit, its channel code (HHZ, BHZ) or
+    its type of samples; the message says what to do. Also a gap, several segments of one channel, a sample that is not
+    finite; `units` other than the stated ones; a stream that is not one station, as for `read_station`.
 
 Warns
 -----
@@ -403,6 +391,10 @@ Every number reads back as the same double.)")
           py::is_operator())
       .def("__neg__", [](const GroundMotion& g) { return g.scaled(-1); })
       .def("__len__", &GroundMotion::samples)
+      .def("__getitem__",
+           [](const py::object& self, const py::object& index) {
+             return py::module_::import("stickslip.motions.pieces").attr("piece")(self, index);
+           })
       .def("__repr__",
            [](const GroundMotion& g) {
              const auto dt = dt_of(g);

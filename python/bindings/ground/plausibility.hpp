@@ -12,8 +12,12 @@
 
 namespace stickslip::python {
 
-/// Recorded peaks are between these; PGAs above 30 m/s^2 are in other units. (The largest ever recorded is some 4 g.)
-inline constexpr double min_plausible_peak = 0.01, max_plausible_peak = 30;  // [m/s^2]
+/// Recorded peaks are between these; what is above 3 g is nearly always in other units. (The largest ever recorded is some
+/// 4 g.)
+inline constexpr double min_plausible_peak = 1e-5 * standard_gravity, max_plausible_peak = 3 * standard_gravity;
+/// Time steps and durations of records [s].
+inline constexpr double min_plausible_step = 0.0005, max_plausible_step = 0.1;
+inline constexpr double min_plausible_duration = 1, max_plausible_duration = 3600;
 /// A mean above this fraction of the peak is an offset: in processed records it is below 2e-4, and 0.01 g in a record
 /// of 0.6 g is 1.6e-2.
 inline constexpr double max_plausible_mean = 0.005;
@@ -46,11 +50,25 @@ inline void warn_if_implausible(const GroundMotion& motion, const std::string& w
     std::snprintf(text, sizeof text, "%.3g", value);
     return std::string(text);
   };
-  const double peak = motion.peak_acceleration();
+  const double peak = motion.peak_acceleration(), duration = motion.duration();
+  const double step = duration / static_cast<double>(motion.segments());
   if (!recorded && peak == 0) return;
+  constexpr double margin = 1e-9;  // for steps that are these limits
+  if (recorded && !(step >= min_plausible_step * (1 - margin) && step <= max_plausible_step * (1 + margin))) {
+    warn(
+        "the time step, " + rounded(step) +
+        " s, is not from 0.0005 to 0.1 s as in recorded earthquakes; check whether milliseconds or numbers of rows were"
+        " taken for seconds");
+    return;
+  }
+  if (recorded && !(duration >= min_plausible_duration && duration <= max_plausible_duration)) {
+    warn("the duration, " + rounded(duration) +
+         " s, is not from 1 s to an hour as in recorded earthquakes; check the time step");
+    return;
+  }
   if (!(peak >= min_plausible_peak && peak <= max_plausible_peak)) {
     warn("the largest acceleration, " + rounded(peak) +
-         " m/s^2, is not from 0.01 to 30 m/s^2 as in recorded earthquakes; check the units");
+         " m/s^2, is not from 0.0001 to 29.4 m/s^2 (1e-5 to 3 g) as in recorded earthquakes; check the units");
     return;
   }
   const double velocity = ground_history(motion).velocity.back(), mean = velocity / motion.duration();

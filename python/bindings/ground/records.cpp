@@ -1,5 +1,6 @@
 #include <pybind11/stl.h>
 
+#include <array>
 #include <exception>
 #include <utility>
 
@@ -9,11 +10,22 @@
 namespace stickslip::python {
 namespace {
 
-using Part = std::tuple<GroundMotion, std::string, std::string, std::string>;  // motion, name, start time, units
+// motion, name, start time, units, sensor; then format, and where units, time step and orientation stand
+using Part = std::tuple<GroundMotion, std::string, std::string, std::string, std::string, std::array<std::string, 4>>;
 
 RecordComponent component_of(const Part& part) {
-  const auto& [motion, name, start, units] = part;
-  return {motion, name, start, units};
+  const auto& [motion, name, start, units, sensor, sources] = part;
+  return {motion, name, start, units, sensor, {}};
+}
+
+Part part_of(RecordComponent&& one) {
+  RecordSources& from = one.sources;
+  return {std::move(one.motion),
+          std::move(one.name),
+          std::move(one.start),
+          std::move(one.units),
+          std::move(one.sensor),
+          {std::move(from.format), std::move(from.units), std::move(from.time_step), std::move(from.orientation)}};
 }
 
 /// The components of a file. Each of several options that it accepts gives the same, because what is given must agree
@@ -45,12 +57,10 @@ std::vector<Part> parse(const py::bytes& content, const std::string& file, const
   std::swap(several.front(), several[several.size() / 2]);  // begin with all that is given
   const std::string_view bytes = content;
   const py::gil_scoped_release released;
-  if (only_one && several.size() == 1) return {{parse_record(bytes, file, several[0]), "", "", ""}};
   std::vector<RecordComponent> found = parse_any(bytes, file, several);
   if (only_one && found.size() != 1) (void)parse_record(bytes, file, several[0]);  // says which there are
   std::vector<Part> parts;
-  for (RecordComponent& one : found)
-    parts.emplace_back(std::move(one.motion), std::move(one.name), std::move(one.start), std::move(one.units));
+  for (RecordComponent& one : found) parts.push_back(part_of(std::move(one)));
   return parts;
 }
 
@@ -92,10 +102,12 @@ void bind_records(py::module_& m) {
   m.attr("PlausibilityWarning") = py::reinterpret_steal<py::object>(PyErr_NewExceptionWithDoc(
       "stickslip.PlausibilityWarning",
       "Warning about an implausible record, probably in other units or with a baseline error.\n\n"
-      "`read_record`, `read_station`, `Suite.read` and `GroundMotion.from_obspy` warn if the maximum acceleration is\n"
-      "below 0.01 or above 30 m/s^2, or if the mean acceleration is above 0.5 % of the maximum; they do not check\n"
-      "motions of fewer than 100 samples.\n"
-      "`GroundMotion(...)` warns of the same, but accepts a motion that is zero, and checks the mean only of a motion\n"
+      "`read_record`, `read_station`, `Suite.read` and `GroundMotion.from_obspy` warn if the time step is below "
+      "0.0005\n"
+      "or above 0.1 s, the duration below 1 s or above an hour, the maximum acceleration below 1e-5 or above 3 g, or\n"
+      "the mean acceleration above 0.5 % of the maximum; they do not check motions of fewer than 100 samples.\n"
+      "`GroundMotion(...)` warns of such accelerations, but accepts a motion that is zero, and checks the mean only of "
+      "a motion\n"
       "that begins and ends at rest, as a record does: synthetic noise and harmonic motions rarely have no mean.\n"
       "In processed records the mean is below 0.02 % of the maximum; an offset of 0.01 g in a record of 0.6 g, 1.6 %,\n"
       "can double a displacement. Silence the warning with Python's filter:\n"
@@ -107,6 +119,7 @@ void bind_records(py::module_& m) {
         py::arg("default_dt") = py::none());
   m.def("_azimuth_of", &azimuth_of, py::arg("orientation"));
   m.def("_upward", &upward, py::arg("orientation"));
+  m.def("_orientation_in", &orientation_in, py::arg("text"));
   m.def(
       "_with_orientation",
       [](const GroundMotion& motion, std::string orientation) {

@@ -82,7 +82,7 @@ std::vector<Channel> read_cosmos(const Lines& lines) {
       if (has(comment, "SCNL")) {  // station, channel, network, location
         const std::string_view code = after(comment, ".");
         channel.name = squeeze(code.substr(0, code.find('.')));
-        channel.orientation = seed_orientation(channel.name);
+        channel.orientation = orientation_in(channel.name);
       }
     // Integer 54: an azimuth from 1, or a code for up or down. Some files hold 0 where it is unknown.
     if (channel.orientation.empty() && !azimuth_of(channel.name) && integer.size() > 53) {
@@ -97,7 +97,7 @@ std::vector<Channel> read_cosmos(const Lines& lines) {
       line = reader.line("samples");
       const std::size_t samples = leading_count(reader, line, "pts");
       const std::vector<double> values = reader.numbers(samples, "samples", stated_width(line));
-      if (same(trim(reader.peek()).substr(0, 3), "End"))
+      if (const std::string_view end = trim(reader.peek()); same(end.substr(0, 3), "End") || end.starts_with("/&"))
         reader.line("end");
       else if (!is_cosmos({reader.peek()}))
         reader.require_end(samples);

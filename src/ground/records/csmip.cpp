@@ -1,8 +1,16 @@
-// CSMIP V1 and V2, the format of the California Strong Motion Instrumentation Program. V3 holds spectra.
+// CSMIP V1 (also RAW) and V2, the format of the California Strong Motion Instrumentation Program (CDMG, CGS), in which
+// RENADIC (Chile) writes, too; and volumes I and II of Caltech and the University of Southern California, from which it
+// descends: lines of text, then integers in columns of five characters and reals in columns of ten. V3 holds spectra.
+//
+// Used: the type, event, station, channel or component, and what is stated with the data: count, spacing, unit, columns;
+// for pairs of time and acceleration integer 28 (their number) and the unit in the text. Checked against them: the number
+// of points, the spacing and the peak in the text. The other lines, integers and reals are not used.
 #include "ground/records/formats.hpp"
 #include "ground/records/reader.hpp"
+#include "ground/records/times.hpp"
 
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
@@ -10,12 +18,23 @@
 #include <string_view>
 #include <vector>
 
+#include "stickslip/error.hpp"
+#include "stickslip/ground/records.hpp"
+
 namespace stickslip::records {
 namespace {
 
 bool is_spectra(std::string_view line) { return has(line, "response") && has(line, "spectra"); }
 bool is_uncorrected(std::string_view line) { return has(line, "uncorrected accelerogram data"); }
+bool is_corrected(std::string_view line) { return has(line, "corrected accelerogram") && !is_uncorrected(line); }
 bool is_end(std::string_view line) { return trim(line).starts_with("/&") || has(line, "end of data"); }
+
+/// The line above the samples: `3251 POINTS OF ACCEL DATA EQUALLY SPACED AT .020 SEC. (UNITS: CM/SEC/SEC)`,
+/// `13200 Accelerogram points at 200 pts/sec in units of g .  Format: (8f9.6)`.
+bool is_size(std::string_view line) {
+  std::string_view rest = trim(line);
+  return take_number(rest) && has(rest, "points") && (has(rest, "spaced at") || has(rest, "points at"));
+}
 
 /// Number of columns in a Fortran format such as `(8f10.6)`, or 0.
 std::size_t stated_width(std::string_view line) {
@@ -28,20 +47,23 @@ std::size_t stated_width(std::string_view line) {
   return width;
 }
 
-/// The unit in `... in cm/sec2. (8f10.6)`, `(UNITS: CM/SEC/SEC)`, `UNITS OF UNCOR ACCEL ARE SEC-G/10.`
+std::string first_word(std::string_view text) {
+  text = trim(text);
+  text = text.substr(0, text.find_first_of(" \t,;()"));
+  while (text.ends_with('.')) text.remove_suffix(1);
+  return std::string(text);
+}
+
+/// The unit in `... in cm/sec2. (8f10.6)`, `IN UNITS CM/SEC/SEC`, `(UNITS: CM/SEC/SEC)`, `UNITS ARE SEC AND G/10`,
+/// `UNITS OF UNCOR ACCEL ARE SEC-G/10.`, `Units of uncor data are sec and g .`; or nothing.
 std::string unit_of(std::string_view line) {
   if (const std::string_view are = after(line, " ARE SEC"); !are.empty()) {
-    std::string_view unit = are.substr(std::min(are.find_first_not_of(" -,"), are.size()));
-    if (same(unit.substr(0, 4), "and ")) unit = trim(unit.substr(4));
-    unit = unit.substr(0, unit.find_first_of(" ,;("));
-    while (unit.ends_with('.')) unit.remove_suffix(1);
-    return std::string(unit);
+    std::string_view unit = same(are.substr(0, 4), "onds") ? are.substr(4) : are;
+    unit = unit.substr(std::min(unit.find_first_not_of(" -,"), unit.size()));
+    return first_word(same(unit.substr(0, 4), "and ") ? unit.substr(4) : unit);
   }
-  if (has(line, "units")) return stated_units(before(line, ")"));
-  std::string_view unit = trim(after(line, " in "));
-  unit = unit.substr(0, unit.find_first_of(" \t,;("));
-  while (unit.ends_with('.')) unit.remove_suffix(1);
-  return std::string(unit);
+  if (has(line, "unit")) return first_word(stated_units(line));
+  return first_word(after(line, " in "));
 }
 
 /// Sets the unit; tenths of g become g.
@@ -52,22 +74,54 @@ void set_unit(Channel& channel, const std::string& unit) {
     for (double& n : channel.acceleration) n /= 10;
 }
 
-/// The description in the line of a channel: `Chan  1:  90 Deg   Location: ...`.
+/// The description in the line of a channel: `Chan  1:  90 Deg   Location: ...`, `COMP N08W`.
 std::string orientation_of(const Lines& text) {
-  for (std::string_view line : text)
-    if (same(trim(line).substr(0, 4), "chan")) {
+  for (std::string_view line : text) {
+    line = trim(line);
+    if (same(line.substr(0, 5), "comp ")) return first_word(line.substr(5));
+    if (same(line.substr(0, 4), "chan")) {
       std::string_view rest = trim(after(line, ":"));
       if (has(rest, "deg")) return squeeze(before(rest, "deg"));
-      return squeeze(rest.substr(0, rest.find("  ")));
+      return squeeze(before(rest.substr(0, rest.find("  ")), "("));
     }
+  }
   return {};
+}
+
+/// A number and the word after it, in a line of the text such as `PEAK ACCELERATION = -242.39 CMS/SEC/SEC AT 4.580 SEC.`
+struct Statement {
+  double value = 0;
+  std::string unit{};
+  std::size_t line = 0;
+};
+
+std::optional<Statement> stated(const Lines& text, std::string_view label) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (!has(text[i], label)) continue;
+    std::string_view rest = trim(after(text[i], label));
+    if (rest.starts_with('=')) rest = trim(rest.substr(1));
+    if (const std::optional<double> value = take_number(rest)) return Statement{*value, first_word(rest), i};
+  }
+  return std::nullopt;
+}
+
+/// Rejects samples whose peak is more than twice or less than half the stated one: one of the two is in another unit.
+void check_peak(const Channel& channel, const Statement& peak, std::size_t heading) {
+  double largest = 0;
+  for (const double n : channel.acceleration) largest = std::max(largest, std::abs(n));
+  const double read = largest * acceleration_unit(channel.units);
+  const double said = std::abs(peak.value) * acceleration_unit(peak.unit);
+  if (read > 2 * said + 1e-3 || 2 * read + 1e-3 < said)
+    refuse_line(heading + peak.line, "states a peak of " + detail::shortest(peak.value) + " " + peak.unit +
+                                         ", but that of the samples is " + detail::shortest(largest) + " " +
+                                         channel.units);
 }
 
 }  // namespace
 
 bool is_csmip(const Lines& lines) {
   if (lines.size() < 2) return false;
-  return is_uncorrected(lines[0]) || (has(lines[0], "corrected accelerogram") && is_uncorrected(lines[1])) ||
+  return is_uncorrected(lines[0]) || (is_corrected(lines[0]) && is_uncorrected(lines[1])) ||
          (is_spectra(lines[0]) && has(lines[1], "corrected accelerogram"));
 }
 
@@ -78,8 +132,7 @@ std::vector<Channel> read_csmip(const Lines& lines) {
     if (is_spectra(reader.peek()))
       throw std::invalid_argument(
           "a CSMIP V3 file holds response and Fourier spectra, not an acceleration history; read the V1 or V2 file");
-    const bool corrected = !is_uncorrected(reader.peek());
-    reader.done();  // skips blank lines
+    const bool corrected = is_corrected(reader.peek());
     const Lines text = reader.block(corrected ? 25 : 13, corrected ? "heading of 25 lines" : "heading of 13 lines");
     const std::size_t heading = reader.last() + 1 - text.size();
     if (!has(text[0], "corrected accelerogram"))
@@ -91,33 +144,46 @@ std::vector<Channel> read_csmip(const Lines& lines) {
     channel.title = joined(
         {squeeze(before(text[corrected ? 4 : 3], "  ")), squeeze(before(text[corrected ? 6 : 5], "  ")), channel.name});
     bool found = false;
-    while (has(reader.peek(), "points of")) {
+    while (is_size(reader.peek())) {
       const std::string_view line = reader.line("samples");
       std::string_view rest = trim(line);
-      const std::optional<double> count = take_number(rest);
-      const std::size_t samples = as_count(count.value_or(-1), reader.last(), "samples");
-      std::string_view step = trim(after(line, "spaced at"));
-      const std::optional<double> dt = take_number(step);
-      if (!dt) refuse_line(reader.last(), "expected points of data equally spaced in seconds, got " + quote(line));
+      const std::size_t samples = as_count(take_number(rest).value_or(-1), reader.last(), "samples");
+      const bool rated = !has(line, "spaced at");  // points per second
+      std::string_view step = trim(after(line, rated ? "points at" : "spaced at"));
+      const std::optional<double> number = take_number(step);
+      if (!number || !(*number > 0) || (rated && !same(trim(step).substr(0, 3), "pts")))
+        refuse_line(reader.last(), "expected points of data equally spaced in seconds, got " + quote(line));
+      const double dt = rated ? 1 / *number : *number;
       const std::vector<double> values = reader.numbers(samples, "samples", stated_width(line));
-      if (!has(line, "accel")) continue;
-      channel.dt = *dt;
+      if (!has(rest, "acc")) continue;
+      channel.dt = dt;
       channel.acceleration = values;
+      const std::optional<Statement> peak = stated(text, "PEAK ACCELERATION"), every = stated(text, "INTERVALS OF");
       set_unit(channel, unit_of(line));
+      if (channel.units.empty() && peak) channel.units = peak->unit;
+      if (every && std::abs(every->value - dt) > 1e-6 * dt)
+        refuse_line(heading + every->line, "states a spacing of " + detail::shortest(every->value) +
+                                               " s, but above the samples it is " + detail::shortest(dt) + " s");
+      if (peak && !channel.units.empty()) check_peak(channel, *peak, heading);
       found = true;
     }
     if (!found && !corrected) {  // pairs of time and acceleration
       const std::size_t samples = as_count(integer[27], heading + 13, "samples");
+      if (const std::optional<Statement> points = stated(text, "NO. OF POINTS"); points && points->value != integer[27])
+        refuse_line(heading + points->line, "states " + detail::shortest(points->value) +
+                                                " points, but integer 28 is " + detail::shortest(integer[27]));
       const std::vector<double> values = reader.numbers(2 * samples, "times and samples", 7);
+      std::vector<double> times;
       for (std::size_t i = 0; i < values.size(); i += 2) {
-        channel.times.push_back(values[i]);
+        times.push_back(values[i]);
         channel.acceleration.push_back(values[i + 1]);
       }
       for (const std::string_view line : text)
-        if (channel.units.empty() && has(line, "units of")) set_unit(channel, unit_of(line));
+        if (channel.units.empty() && has(line, "units") && has(line, " are sec")) set_unit(channel, unit_of(line));
+      if (samples > 1) set_times(channel, times, std::vector<double>(times.size(), 0.001));
       found = true;
     }
-    if (!found) throw std::invalid_argument("a channel of this CSMIP file holds no acceleration");
+    if (!found) throw std::invalid_argument("a channel of this file holds no acceleration");
     if (is_end(reader.peek())) reader.line("end of data");
     channels.push_back(std::move(channel));
   }

@@ -26,9 +26,34 @@ constexpr Format formats[] = {
      is_knet,
      read_knet},
     {{"ESM and ITACA", "UNITS", "SAMPLING_INTERVAL_S", "ORFEUS and INGV, DYNA 1.2 header", ".ASC"}, is_dyna, read_dyna},
+    {{"AFAD (Turkiye)", "RAW PGA VALUES", "SAMPLING INTERVAL", "AFAD, strong ground motion records of Turkiye", ".txt"},
+     is_afad,
+     read_afad},
+    {{"CWB (Taiwan)", "AmplitudeUnit", "1 / SampleRate", "Central Weather Bureau, free format", ".dat, .txt"},
+     is_cwb,
+     read_cwb},
+    {{"ASA 2.0 (Mexico)", "UNIDADES DE LOS DATOS", "INTERVALO DE MUESTREO", "UNAM, archivo estandar de aceleracion 2.0",
+      ".101, .012, ..."},
+     is_asa,
+     read_asa},
+    {{"CSMNC (China)", "UNIT", "EQUALLY SPACED INTERVALS OF",
+      "Institute of Engineering Mechanics, China Strong Motion Network", ".dat"},
+     is_csmnc,
+     read_csmnc},
+    {{"SIGMA", "stated with the data", "Time Increment", "GEM gmpe-smtk, sigma parser", ".cor.acc"},
+     is_sigma,
+     read_sigma},
+    {{"SCEC Broadband Platform", "lines of the columns", "from the times", "SCEC, files of the platform", ".bbp"},
+     is_bbp,
+     read_bbp},
+    {{"BHRC volume 1", "UNITS ARE SECONDS AND G/10", "1 / real 9", "BHRC, Iran Strong Motion Network", ".V1"},
+     is_bhrc,
+     read_bhrc},
+    {{"USGS, three series", "line 7", "1 / SAMPLES/SEC", "USGS Open-File Report 89-12", ".040, .044, ..."},
+     is_usgs,
+     read_usgs},
     {{"PEER AT2", "line 3", "line 4, either form", "PEER NGA-West2 database", ".AT2"}, is_peer, read_peer},
-    {{"one column of acceleration", "header, or given", "given", "", ".txt"}, is_column, read_table},
-    {{"two columns or more, seconds and acceleration", "header, or given", "from the times", "", ".csv, .txt"},
+    {{"columns of numbers", "label, own line, or given", "times, own line, or given", "", ".csv, .txt, ..."},
      is_table,
      read_table},  // last: it accepts any file with a number
 };
@@ -46,12 +71,6 @@ const Format& recognize(const Lines& lines) {
   if (format == std::end(formats))
     throw std::invalid_argument("no known format of records; known are: " + known_formats());
   return *format;
-}
-
-std::string seed_orientation(std::string_view code) {
-  code = trim(code);
-  return code.size() == 3 && (code[2] == 'N' || code[2] == 'E' || code[2] == 'Z') ? std::string(1, code[2])
-                                                                                  : std::string();
 }
 
 }  // namespace records

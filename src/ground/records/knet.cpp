@@ -47,8 +47,10 @@ std::vector<Channel> read_knet(const Lines& lines) {
 
   // N-S, E-W, U-D; of KiK-net 1 to 3 in the borehole and 4 to 6 at the surface.
   channel.name = squeeze(value(lines, "Dir.", line));
-  if (channel.name.size() == 1 && channel.name[0] >= '1' && channel.name[0] <= '6')
+  if (channel.name.size() == 1 && channel.name[0] >= '1' && channel.name[0] <= '6') {
     channel.orientation = std::string_view("NEZ")[static_cast<std::size_t>(channel.name[0] - '1') % 3];
+    channel.sensor = channel.name[0] < '4' ? "borehole" : "surface";
+  }
 
   std::string_view text = value(lines, "Scale Factor", line);  // 3920(gal)/6182761
   const std::optional<double> numerator = take_number(text);
@@ -61,7 +63,7 @@ std::vector<Channel> read_knet(const Lines& lines) {
   if (!numerator || !gal || !over || !denominator || !text.empty() || !(*denominator != 0))
     refuse_line(line, "expected a scale factor as '3920(gal)/6182761', got " + quote(lines[line]));
 
-  channel.title = joined({origin, station, channel.name});
+  channel.title = joined({origin, squeeze(station + " " + channel.sensor), channel.name});
   Reader reader(lines);
   reader.block(header_lines, "header");
   channel.acceleration = reader.numbers(samples, "samples", 9);

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <optional>
@@ -17,6 +18,7 @@
 
 #include "ground/records/formats.hpp"
 #include "ground/records/text.hpp"
+#include "ground/records/units.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/ground/orientation.hpp"
 #include "stickslip/units.hpp"
@@ -66,22 +68,61 @@ std::string load(const fs::path& file) {
   return text;
 }
 
-/// The text of a file without its byte-order mark and DOS end mark, in UTF-8.
+/// The text of a file in UTF-16, in the order of its bytes; a lone surrogate becomes U+FFFD.
+std::string utf16_to_utf8(std::string_view text, bool little) {
+  std::string result;
+  const auto unit = [&](std::size_t i) {
+    const auto low = static_cast<unsigned char>(text[i + (little ? 0 : 1)]),
+               high = static_cast<unsigned char>(text[i + (little ? 1 : 0)]);
+    return static_cast<std::uint32_t>(high << 8 | low);
+  };
+  const auto is_half = [](std::uint32_t code, std::uint32_t which) { return (code & 0xFC00) == which; };
+  for (std::size_t i = 0; i + 1 < text.size(); i += 2) {
+    std::uint32_t code = unit(i);
+    if (is_half(code, 0xD800) && i + 3 < text.size() && is_half(unit(i + 2), 0xDC00)) {
+      code = 0x10000 + ((code & 0x3FF) << 10) + (unit(i + 2) & 0x3FF);
+      i += 2;
+    } else if (is_half(code, 0xD800) || is_half(code, 0xDC00)) {
+      code = 0xFFFD;
+    }
+    const auto add = [&](std::uint32_t bits) { result += static_cast<char>(bits); };
+    if (code < 0x80) {
+      add(code);
+    } else if (code < 0x800) {
+      add(0xC0 | code >> 6);
+    } else if (code < 0x10000) {
+      add(0xE0 | code >> 12);
+    } else {
+      add(0xF0 | code >> 18);
+    }
+    if (code >= 0x10000) add(0x80 | (code >> 12 & 0x3F));
+    if (code >= 0x800) add(0x80 | (code >> 6 & 0x3F));
+    if (code >= 0x80) add(0x80 | (code & 0x3F));
+  }
+  return result;
+}
+
+/// The text of a file in UTF-8, without its byte-order mark and what fills its last block: zeros, DOS end marks.
 std::string decoded(std::string text) {
+  const std::string_view mark = std::string_view(text).substr(0, 2);
+  if (mark == "\xFF\xFE" || mark == "\xFE\xFF")
+    text = utf16_to_utf8(std::string_view(text).substr(2), mark[0] == '\xFF');
+  while (text.ends_with('\0') || text.ends_with('\x1A')) text.pop_back();
   if (const std::size_t at = text.find('\0'); at != std::string::npos)
     throw std::invalid_argument("plain text is needed, got a NUL byte at offset " + std::to_string(at) +
-                                " (a binary file, or UTF-16)");
+                                " (a binary file, or UTF-16 without its byte-order mark)");
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-  if (text.ends_with('\x1A')) text.pop_back();
   return is_utf8(text) ? text : latin1_to_utf8(text);
 }
 
+/// The lines of a text, whose ends are LF, CRLF, or CR alone; without DOS end marks at their ends.
 Lines split(std::string_view text) {
+  const char end_of_line = text.find('\n') == std::string_view::npos ? '\r' : '\n';
   Lines lines;
   while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::size_t end = std::min(text.find(end_of_line), text.size());
     std::string_view line = text.substr(0, end);
-    while (line.ends_with('\r')) line.remove_suffix(1);
+    while (line.ends_with('\r') || line.ends_with('\x1A')) line.remove_suffix(1);
     lines.push_back(line);
     text.remove_prefix(std::min(end + 1, text.size()));
   }
@@ -107,7 +148,7 @@ std::vector<Channel> choose(std::vector<Channel> channels, const std::string& wa
   if (wanted.empty()) return channels;
   std::size_t matches = 0, index = 0;
   for (std::size_t i = 0; i < channels.size(); ++i)
-    if (same(channels[i].name, wanted)) {
+    if (same(channels[i].name, wanted) || (!wanted.empty() && same(channels[i].label, wanted))) {
       ++matches;
       index = i;
     }
@@ -120,36 +161,6 @@ std::vector<Channel> choose(std::vector<Channel> channels, const std::string& wa
   }
   if (matches != 1) refuse_choice(channels, wanted);
   return {std::move(channels[index])};
-}
-
-/// A unit of acceleration and how many m/s^2 it is.
-using Unit = std::pair<std::string_view, double>;
-
-/// The unit with that name, in any spelling.
-Unit unit_named(std::string_view name) {
-  static constexpr Unit units[] = {
-      {"g", standard_gravity}, {"m/s^2", 1},       {"cm/s^2", 0.01},   {"gal", 0.01},
-      {"mm/s^2", 0.001},       {"ft/s^2", 0.3048}, {"in/s^2", 0.0254},
-  };
-  // Every spelling of a unit is reduced to the one in the table.
-  constexpr std::size_t longest = 32;  // the names below with room to spare
-  std::string unit;
-  for (const char c : name)
-    if (!is_blank(c) && unit.size() <= longest) unit += lower(c);
-  if (unit.size() > longest) unit.clear();
-  for (const auto& [variant, plain] : {std::pair<std::string_view, std::string_view>{"\xC2\xB2", "2"},  // superscript 2
-                                       {"sec", "s"},
-                                       {"**", "^"},
-                                       {"s/s", "s^2"},
-                                       {"s2", "s^2"},
-                                       {"g's", "g"}})
-    for (std::size_t at; (at = unit.find(variant)) != std::string::npos;) unit.replace(at, variant.size(), plain);
-  std::string known;
-  for (const Unit& one : units) {
-    if (unit == one.first) return one;
-    known.append(known.empty() ? "" : ", ").append(one.first);
-  }
-  throw std::invalid_argument("unknown unit of acceleration " + quote(name) + "; known are " + known);
 }
 
 /// Rejects a component whose units or time step are neither stated nor given, in one message.
@@ -198,13 +209,23 @@ void refuse_gaps(const GroundMotion& motion) {
                                   "; pass gaps to keep it as a straight line");
 }
 
-RecordComponent component_of(Channel channel, const std::string& name, const RecordOptions& options) {
+/// @param file  the name of a file with one component, otherwise empty
+RecordComponent component_of(Channel channel, const std::string& name, const std::string& file,
+                             const RecordFormat& format, const RecordOptions& options) {
   require_stated(channel, options);
   const double factor = scale(channel.units, options.units);
   for (double& n : channel.acceleration) n *= factor;
   std::string title = channel.title.empty() ? name : std::move(channel.title);
-  std::string orientation = channel.orientation.empty() ? channel.name : std::move(channel.orientation);
-  if (!azimuth_of(orientation) && upward(orientation) == 0) orientation.clear();
+  std::string orientation = orientation_in(channel.orientation.empty() ? channel.name : channel.orientation);
+  RecordSources sources{.format = std::string(format.name)};
+  sources.orientation = orientation.empty() ? "name of the file" : "in the file";
+  if (orientation.empty()) orientation = orientation_in_file_name(file);
+  if (orientation.empty()) sources.orientation.clear();
+  const auto from = [](bool stated, std::string place, std::string_view usual) {
+    return !stated ? "given" : place.empty() ? std::string(usual) : std::move(place);
+  };
+  sources.units = from(!channel.units.empty(), std::move(channel.units_from), format.units);
+  sources.time_step = from(channel.dt || !channel.times.empty(), std::move(channel.step_from), format.time_step);
   const bool even = channel.times.empty();
   if (!even && options.dt) detail::refuse("the file states the times of its samples, dt given is", *options.dt, "s");
   const GroundMotion motion = even ? GroundMotion(std::move(channel.acceleration), step(channel.dt, options.dt),
@@ -212,9 +233,13 @@ RecordComponent component_of(Channel channel, const std::string& name, const Rec
                                    : GroundMotion(std::move(channel.acceleration), std::move(channel.times),
                                                   Interpolation::linear, std::move(title));
   if (!even && !options.gaps) refuse_gaps(motion);
-  std::string units(channel.units.empty() ? "" : unit_named(channel.units).first);
-  return {motion.with_orientation(std::move(orientation)), std::move(channel.name), std::move(channel.start),
-          std::move(units)};
+  std::string units(channel.units.empty() ? "" : acceleration_unit_named(channel.units).name);
+  return {motion.with_orientation(std::move(orientation)),
+          std::move(channel.name),
+          std::move(channel.start),
+          std::move(units),
+          std::move(channel.sensor),
+          std::move(sources)};
 }
 
 /// All requested components of a file.
@@ -223,13 +248,18 @@ std::vector<RecordComponent> parse(std::string content, const std::string& file,
   try {
     const std::string text = decoded(std::move(content));
     const Lines lines = split(text);
-    std::vector<Channel> channels = choose(recognize(lines).read(lines), options.component);
+    const Format& format = recognize(lines);
+    std::vector<Channel> channels = format.read(lines);
+    const bool alone = channels.size() == 1;
+    channels = choose(std::move(channels), options.component);
     if (only_one && channels.size() != 1) refuse_choice(channels, options.component);
     const std::size_t mark = file.rfind("::");  // before a file in an archive
-    const std::string name = fs::path(mark == std::string::npos ? file : file.substr(mark + 2)).stem().string();
+    const std::string inner = mark == std::string::npos ? file : file.substr(mark + 2);
+    const std::string name = fs::path(inner).stem().string();
     std::vector<RecordComponent> components;
     for (Channel& channel : channels)
-      components.push_back(component_of(std::move(channel), printable(name, 256), options));
+      components.push_back(
+          component_of(std::move(channel), printable(name, 256), alone ? inner : "", format.about, options));
     return components;
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument("read_record: " + printable(file, 4096) + ": " + error.what());
@@ -237,8 +267,6 @@ std::vector<RecordComponent> parse(std::string content, const std::string& file,
 }
 
 }  // namespace
-
-double acceleration_unit(std::string_view name) { return unit_named(name).second; }
 
 std::optional<RecordFormat> record_format(std::string_view content) {
   try {

@@ -27,8 +27,9 @@ std::vector<Channel> read_smc(const Lines& lines) {
   const std::vector<double> real = reader.numbers(50, "reals");
   reader.block(as_count(integer[15], 12, "comments"), "comments");
   const std::size_t samples = as_count(integer[16], 13, "samples");
-  if (const double unknown = real[0], rate = real[1]; !(rate > 0) || rate == unknown)
-    refuse_line(17, "the sampling rate must be known and positive, got " + detail::shortest(rate) + " 1/s");
+  if (const double unknown = real[0], rate = real[1]; !(rate > 0) || rate >= unknown)
+    refuse_line(17, rate > 0 ? "this file has no sampling rate: its samples are uneven, and their times are not read"
+                             : "the sampling rate must be positive, got " + detail::shortest(rate) + " 1/s");
 
   Channel component{.units = "cm/s^2", .dt = 1 / real[1]};
   component.name = squeeze(after(text[5], "component="));

@@ -122,22 +122,61 @@ std::optional<double> take_number(std::string_view& text) {
   return value;
 }
 
+namespace {
+
+/// Appends the numbers in columns of a line, or nothing if not every column holds blanks or one number, with a point
+/// unless all are whole.
+bool append_columns(std::vector<double>& values, std::string_view line, std::size_t width, bool whole) {
+  const std::size_t count = values.size();
+  for (std::size_t column = 0; column < line.size(); column += width) {
+    std::string_view field = trim(line.substr(column, width));
+    if (field.empty()) continue;
+    const bool pointed = field.find('.') != std::string_view::npos;
+    const std::optional<double> value = take_number(field);
+    if (!value || !field.empty() || pointed == whole) {
+      values.resize(count);
+      return false;
+    }
+    values.push_back(*value);
+  }
+  return true;
+}
+
+/// Appends numbers that run together, which have as many decimal places as the last of the line; or nothing.
+bool append_places(std::vector<double>& values, std::string_view line) {
+  const std::size_t count = values.size();
+  line = trim(line);
+  const std::size_t places = line.size() - 1 - line.rfind('.');
+  while (!line.empty()) {
+    const std::size_t point = line.find('.'), end = point == std::string_view::npos ? point : point + 1 + places;
+    std::string_view number = line.substr(0, end);
+    const std::optional<double> value = end <= line.size() ? take_number(number) : std::nullopt;
+    if (!value || !number.empty()) {
+      values.resize(count);
+      return false;
+    }
+    values.push_back(*value);
+    line = trim(line.substr(end));
+  }
+  return true;
+}
+
+}  // namespace
+
 std::string_view append_numbers(std::vector<double>& values, std::string_view line, std::size_t width) {
+  const bool whole = line.find('.') == std::string_view::npos;
+  if (width > 0 && whole && append_columns(values, line, width, true)) return {};
   const std::size_t count = values.size();
   for (std::string_view rest = trim(line); !rest.empty(); rest = trim(rest)) {
     const std::string_view here = rest;
     const std::optional<double> value = take_number(rest);
     if (!value || !(rest.empty() || is_blank(rest[0]) || is_sign(rest[0]))) {
-      if (width == 0) return here;
+      if (width == 0 || whole) return here;
+      const std::vector<double> before(values.begin() + static_cast<std::ptrdiff_t>(count), values.end());
       values.resize(count);
-      for (std::size_t column = 0; column < line.size(); column += width) {
-        std::string_view field = trim(line.substr(column, width));
-        if (field.empty()) continue;
-        const std::optional<double> fixed = take_number(field);
-        if (!fixed || !field.empty()) return here;
-        values.push_back(*fixed);
-      }
-      return {};
+      if (append_columns(values, line, width, false) || append_places(values, line)) return {};
+      values.insert(values.end(), before.begin(), before.end());
+      return here;
     }
     values.push_back(*value);
   }

@@ -91,8 +91,9 @@ std::optional<double> take_number(std::string_view& text);
 
 /// Appends the numbers of a line. Returns the position of the first error, or nothing.
 ///
-/// A sign may separate two numbers. Columns of `width` characters are used only where numbers run together without a
-/// sign: the width that a file declares is less reliable than its blanks.
+/// A sign may separate two numbers. With a `width`, whole numbers fill columns of that many characters, and need no
+/// blanks between them. Numbers with points are read at their blanks, which may not keep to the columns, unless they run
+/// together: then they have two points.
 std::string_view append_numbers(std::vector<double>& values, std::string_view line, std::size_t width);
 
 /// The number after a label, as in `DT= .01`, or nothing; `rest` becomes what follows it.

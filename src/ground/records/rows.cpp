@@ -1,0 +1,98 @@
+#include "ground/records/rows.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+
+#include "ground/records/times.hpp"
+#include "stickslip/error.hpp"
+
+namespace stickslip::records {
+
+void Rows::require_size(std::size_t stated) const {
+  const std::string count = std::to_string(stated) + " samples the header states";
+  if (size() < stated)
+    throw std::invalid_argument("the file ends after " + std::to_string(size()) + " of the " + count);
+  if (size() > stated) refuse_line(lines[stated], "more than the " + count);
+}
+
+Rows read_rows(Reader& reader, std::size_t columns, std::size_t width) {
+  Rows rows{.columns = std::vector<std::vector<double>>(columns)};
+  std::vector<double> row;
+  while (!reader.done()) {
+    const std::string_view line = reader.line("samples");
+    row.clear();
+    if (const std::string_view failed = append_numbers(row, line, width); !failed.empty())
+      refuse_line(reader.last(), "expected finite numbers, got " + quote(failed));
+    if (row.size() != columns)
+      refuse_line(reader.last(), "expected " + std::to_string(columns) + " numbers, got " + std::to_string(row.size()) +
+                                     " in " + quote(line));
+    for (std::size_t k = 0; k < columns; ++k) rows.columns[k].push_back(row[k]);
+    rows.lines.push_back(reader.last());
+  }
+  if (rows.size() < 2) throw std::invalid_argument("at least two rows of numbers are needed");
+  return rows;
+}
+
+bool is_text(std::string_view line) {
+  line = trim(line);
+  const std::string_view word = line.substr(0, line.find_first_of(" \t,;"));
+  if (same(word, "nan") || same(word, "inf") || same(word, "infinity")) return false;
+  return line.empty() || (lower(line[0]) >= 'a' && lower(line[0]) <= 'z');
+}
+
+std::size_t fortran_width(std::string_view format) {
+  std::string_view rest = trim(format);
+  while (!rest.empty() && is_digit(rest[0])) rest.remove_prefix(1);
+  std::size_t width = 0;
+  if (!rest.empty() && (lower(rest[0]) == 'f' || lower(rest[0]) == 'e'))
+    std::from_chars(rest.data() + 1, rest.data() + rest.size(), width);
+  return width;
+}
+
+double checked_step(double seconds, std::size_t line) {
+  constexpr double longest = 1;
+  if (!(seconds > 0 && seconds <= longest))
+    refuse_line(line, "expected a time step above 0 and up to 1 s, got " + detail::shortest(seconds) + " s");
+  return seconds;
+}
+
+double largest(const std::vector<double>& values) {
+  double peak = 0;
+  for (const double value : values) peak = std::max(peak, std::abs(value));
+  return peak;
+}
+
+void check_peak(double peak, std::string_view stated, std::size_t line) {
+  std::string_view rest = stated = trim(stated);
+  if (stated.empty()) return;
+  const std::optional<double> value = take_number(rest);
+  if (!value) refuse_line(line, "expected a peak value, got " + quote(stated));
+  const double difference = std::abs(std::abs(peak) - std::abs(*value));
+  Resolution printed;
+  printed.add(stated.substr(0, stated.size() - rest.size()));
+  if (difference > std::max(printed.units()[0], 0.01 * std::abs(*value)))
+    refuse_line(line, "the header states a peak of " + detail::shortest(*value) + ", the samples have " +
+                          detail::shortest(peak));
+}
+
+double printed_step(const Rows& rows, const Lines& lines) {
+  const std::vector<double>& times = rows.columns[0];
+  Resolution resolution;
+  for (const std::size_t line : rows.lines) {
+    const std::string_view row = trim(lines[line]);
+    resolution.add(row.substr(0, row.find_first_of(" \t")));
+  }
+  Channel channel;
+  set_times(channel, times, resolution.units());
+  if (channel.dt) return checked_step(*channel.dt, rows.lines[1]);
+
+  const double first = times[1] - times[0];
+  std::size_t row = 2;
+  while (row + 1 < rows.size() && std::abs(times[row] - times[row - 1] - first) <= 0.5 * std::abs(first)) ++row;
+  row = std::min(row, rows.size() - 1);
+  refuse_line(rows.lines[row], "expected evenly spaced times, got " + quote(lines[rows.lines[row]]));
+}
+
+}  // namespace stickslip::records

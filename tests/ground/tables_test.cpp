@@ -1,0 +1,268 @@
+// What columns of numbers state, and what they do not: labels, units, times, counts, remarks.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ground/record_files.hpp"
+#include "stickslip/ground/orientation.hpp"
+#include "stickslip/ground/records.hpp"
+#include "stickslip/units.hpp"
+#include "support/catch.hpp"
+
+using namespace stickslip;
+using namespace record_files;
+using Catch::Matchers::ContainsSubstring;
+
+namespace {
+
+constexpr double g = standard_gravity;
+constexpr int count = 200;
+constexpr double peak = 2.77348;  // of the made-up samples [m/s^2]
+
+/// A smooth pulse of 200 samples.
+double sample(int i) { return peak * std::sin(0.05 * i) * std::exp(-std::pow((i - 94.2) / 60, 2)) / 0.99999; }
+
+double largest() {
+  double value = 0;
+  for (int i = 0; i < count; ++i) value = std::max(value, std::abs(sample(i)));
+  return value;
+}
+
+/// Rows of a first column, then the samples times each factor.
+std::string rows(const std::string& separator, const std::function<std::string(int)>& first,
+                 std::initializer_list<double> factors = {1}, const std::string& end = "\n") {
+  std::string text;
+  for (int i = 0; i < count; ++i) {
+    text += first(i);
+    for (const double factor : factors) text += separator + print("%.7f", factor * sample(i));
+    text += end;
+  }
+  return text;
+}
+
+std::string seconds(int i) { return print("%.2f", 0.01 * i); }
+std::string number(int i) { return std::to_string(i); }
+
+RecordComponent one(const std::string& content, const RecordOptions& options = {}, const std::string& file = "a.csv") {
+  const std::vector<RecordComponent> all = parse_components(content, file, options);
+  REQUIRE(all.size() == 1);
+  return all[0];
+}
+
+GroundMotion read(const std::string& content, const RecordOptions& options = {}) {
+  return parse_record(content, "made_up.csv", options);
+}
+
+std::string refusal(const std::string& content, const RecordOptions& options = {}) {
+  try {
+    const std::vector<RecordComponent> found = parse_components(content, "made_up.csv", options);
+    return "accepted";
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+}
+
+void is_the_record(const GroundMotion& motion, double unit = 1) {
+  CHECK(motion.samples() == count);
+  CHECK(motion.dt() == 0.01);
+  CHECK(motion.peak_acceleration() == Approx(unit * largest()).epsilon(1e-6));
+}
+
+}  // namespace
+
+TEST_CASE("a first column that counts rows is no time", "[records]") {
+  const RecordOptions given{.units = "g", .dt = 0.01};
+  for (const char* label : {"No.", "", "sample", "Index", "frame", "#", "n", "Row", "Unnamed: 0", "Point", "time step",
+                            "Sample number", "ID"}) {
+    CAPTURE(label);
+    const std::string text = std::string(label) + ",Acc (g)\n" + rows(",", number);
+    CHECK_THAT(refusal(text), ContainsSubstring("states no time step: pass dt"));
+    is_the_record(read(text, given), g);
+  }
+  // Without labels, counting from 0 or 1; and beside a column of times.
+  for (const int from : {0, 1}) {
+    const std::string text = rows(" ", [&](int i) { return std::to_string(i + from); });
+    CHECK_THAT(refusal(text, {.units = "g"}), ContainsSubstring("pass dt"));
+    is_the_record(read(text, given), g);
+  }
+  const std::string pandas = ",time,acc_g\n" + rows(",", [](int i) { return number(i) + "," + seconds(i); });
+  is_the_record(read(pandas), g);
+  is_the_record(read(pandas, {.units = "g", .component = "acc_g"}), g);
+}
+
+TEST_CASE("times are in the unit of their label", "[records]") {
+  const auto milliseconds = [](int i) { return std::to_string(10 * i); };
+  for (const char* label : {"time_ms", "t/ms", "Time in ms", "Time (ms)", "t [msec]", "milliseconds", "ms"}) {
+    CAPTURE(label);
+    is_the_record(read(std::string(label) + ",Acc (m/s2)\n" + rows(",", milliseconds)));
+  }
+  for (const char* label : {"Time (s)", "t", "T", "time", "Time [sec]", "seconds", "Zeit [s]", "tiempo",
+                            "Time (UTC) (s)", "time_s", "t/s", "\"Time (s)\"", "Elapsed time"}) {
+    CAPTURE(label);
+    is_the_record(read(std::string(label) + ",Acc (m/s2)\n" + rows(",", seconds)));
+  }
+  // In any column.
+  std::string last = "Acc (m/s2),t (s)\n";
+  for (int i = 0; i < count; ++i) last += print("%.7f", sample(i)) + "," + seconds(i) + "\n";
+  is_the_record(read(last));
+}
+
+TEST_CASE("without labels times are even, begin near zero and have the steps of records", "[records]") {
+  is_the_record(read(rows(",", seconds), {.units = "m/s^2"}));
+  is_the_record(read(rows("\t", [](int i) { return print("%.3f", 0.01 * (i + 1)); }), {.units = "m/s^2"}));
+  const auto refused = [&](const std::function<std::string(int)>& first, double dt) {
+    CHECK_THAT(refusal(rows(",", first), {.units = "m/s^2", .dt = dt}), ContainsSubstring("is not time"));
+  };
+  refused([](int i) { return print("%.1f", 10. * i); }, 0.01);        // steps of 10
+  refused([](int i) { return print("%.2f", 30 + 0.01 * i); }, 0.01);  // far from zero
+  refused([](int i) { return print("%.7f", 1e-5 * i); }, 0.01);       // steps of 10 microseconds
+  refused([](int i) { return print("%.3f", 0.01 * i + 1e-4 * i * i); }, 0.01);
+}
+
+TEST_CASE("a remark states no unit, and a line that is nothing but one does", "[records]") {
+  const std::string table = rows(",", seconds);
+  for (const char* remark :
+       {"# Peak ground acceleration (g): 0.283\n", "# Max. acc. (g) of the instrument\n", "# Instrument unit: 12\n",
+        "# Scaled to 0.4 g\n", "# acceleration sensitivity (g)\n", "# Unit 3 of the plant\n"}) {
+    CAPTURE(remark);
+    CHECK_THAT(refusal(remark + ("Time,Acc\n" + table)), ContainsSubstring("states no units of acceleration"));
+    is_the_record(read(remark + ("Time,Acc\n" + table), {.units = "m/s^2"}));
+  }
+  for (const char* line :
+       {"# units: m/s^2\n", "# Units = m/s2\n", "# Acceleration (m/s/s)\n", "m/s^2\n", "[m/s**2]\n",
+        "# Accelerations in units of m/s2\n", "# ground acceleration in m/s^2.\n", "# Units: s, m/s^2\n"})
+    for (const bool above : {true, false}) {
+      CAPTURE(line);
+      const std::string labels = "Time,Acc\n";
+      is_the_record(read((above ? line + labels : labels + line) + table));
+    }
+  is_the_record(read("time,acceleration\ns,m/s2\n" + table));
+  is_the_record(read("time;acceleration\n[s];[m/s2]\n" + table));
+  // What two places state must agree.
+  CHECK_THAT(refusal("# units: g\nTime,Acc (m/s2)\n" + table), ContainsSubstring("line 1: states the unit 'g', but"));
+  CHECK_THAT(refusal("# units: g\n# units: gal\nTime,Acc\n" + table), ContainsSubstring("line 1: states other units"));
+  CHECK_THAT(refusal("# units: furlong/s^2\nTime,Acc\n" + table), ContainsSubstring("unknown unit"));
+}
+
+TEST_CASE("each column has the unit of its own label", "[records]") {
+  const std::string text = "Time (s),EW (gal),NS (m/s2),quality\n" +
+                           rows(",", [](int i) { return seconds(i) + "," + print("%.4f", 80 * sample(i)); }, {1, 0});
+  is_the_record(read(text, {.component = "NS"}));
+  CHECK(read(text, {.component = "EW"}).peak_acceleration() == Approx(0.8 * largest()).epsilon(1e-4));
+  CHECK(parse_components(text, "a").size() == 2);
+  for (const char* label :
+       {"Acc (corrected) [m/s2]", "Acc cm/s2", "acc_cm_s2", "a [gal] (raw)", "Acceleration in cm/s^2", "acc_gal",
+        "Acc m s-2", "Acc (m\xC2\xB7s\xE2\x81\xBB\xC2\xB2)", "Acc (mg)", "Acc (%g)"}) {
+    CAPTURE(label);
+    const RecordComponent found = one("Time (UTC) (s)," + std::string(label) + "\n" + rows(",", seconds));
+    CHECK(!found.units.empty());
+  }
+  CHECK(acceleration_unit("mg") == Approx(g / 1000));
+  CHECK(acceleration_unit("m s-2") == 1);
+}
+
+TEST_CASE("a label that names another quantity is no acceleration", "[records][errors]") {
+  const RecordOptions given{.units = "m/s^2"};
+  for (const auto& [label, what] : {std::pair{"velocity", "a velocity"},
+                                    {"Vel", "a velocity"},
+                                    {"disp", "a displacement"},
+                                    {"EW (cm/s)", "a velocity"},
+                                    {"Displacement (cm)", "a displacement"},
+                                    {"Counts", "a number of counts"},
+                                    {"Temp (C)", "a temperature"},
+                                    {"PGA (g)", "a peak"},
+                                    {"PSA", "a spectral value"},
+                                    {"x (mm)", "a length"}})
+    CHECK_THAT(refusal("time," + std::string(label) + "\n" + rows(",", seconds), given),
+               ContainsSubstring(what) && ContainsSubstring("line 1: no column holds an acceleration"));
+  for (const char* label : {"Period (s)", "period", "Frequency", "freq (Hz)", "T period"})
+    CHECK_THAT(refusal(label + (",Sa (g)\n" + rows(",", seconds)), given), ContainsSubstring("this is a spectrum"));
+  // Beside an acceleration they are left out.
+  const std::string all = "time,acc (m/s2),vel (m/s),disp (m)\n" + rows(",", seconds, {1, 0.1, 0.01});
+  is_the_record(read(all));
+  CHECK_THAT(refusal(all, {.component = "vel (m/s)"}), ContainsSubstring("select one component"));
+}
+
+TEST_CASE("numbers in reading order are one record", "[records]") {
+  const RecordOptions given{.units = "m/s^2", .dt = 0.01};
+  for (const int columns : {1, 2, 3, 4, 5, 7, 8, 10, 200}) {
+    CAPTURE(columns);
+    std::string text;
+    for (int i = 0; i < count; ++i)
+      text += " " + print("%.7f", sample(i)) + ((i + 1) % columns == 0 || i + 1 == count ? "\n" : "");
+    is_the_record(read(text, given));
+    is_the_record(read("200\n" + text, given));
+    is_the_record(read("# dt = 0.01 s\n" + text, {.units = "m/s^2"}));
+    is_the_record(read("NPTS= 200, DT= .01 SEC\n" + text, {.units = "m/s^2"}));
+    is_the_record(read("# Sampling rate (Hz): 100\n# units: m/s^2\n" + text));
+    if (columns != 2) is_the_record(read("200 0.01\n" + text, {.units = "m/s^2"}));
+    for (const char* counts : {"1000\n", "199\n", "# NPTS = 201\n"})
+      CHECK_THAT(refusal(counts + text, given),
+                 ContainsSubstring("line 1: states") && ContainsSubstring("200 numbers follow"));
+    CHECK_THAT(refusal(text, {.units = "g"}), ContainsSubstring("no time step"));
+    CHECK_THAT(refusal("dt = 0.02 s\n" + text, given), ContainsSubstring("states a time step of 0.02 s"));
+  }
+  // Components side by side vary more from one number to the next.
+  std::string three;
+  for (int i = 0; i < count; ++i)
+    three += print("%.7f ", sample(i)) + print("%.7f ", -0.8 * sample(i)) + print("%.7f\n", 0.3 * sample(i));
+  CHECK_THAT(refusal(three, given),
+             ContainsSubstring("line 1: the first of 3 columns is not time") && ContainsSubstring("label the columns"));
+  CHECK(parse_components("N E Z\n" + three, "a", given).size() == 3);
+}
+
+TEST_CASE("spreadsheets export empty columns, empty rows, quotation marks and remarks", "[records]") {
+  const std::string head = "Time (s),Acceleration (m/s2)";
+  is_the_record(read(head + ",,\n" + rows(",", seconds, {1}, ",,\n") + ",,,\n,,,\n"));
+  is_the_record(read(head + "\n" + rows(",", seconds) + "# end, of, the, record\n"));
+  is_the_record(
+      read("\"Time (s)\",\"Acceleration (m/s2)\"\n" + rows(",", [](int i) { return "\"" + seconds(i) + "\""; })));
+  std::string german = "\"Zeit (s)\",\"Beschl. (m/s2)\"\n";
+  for (int i = 0; i < count; ++i)
+    german += replaced("\"" + seconds(i) + "\";\"" + print("%.7f", sample(i)) + "\"\n", ".", ",");
+  is_the_record(read(replaced(german, "\",\"", "\";\"")));
+  is_the_record(read(replaced(german, ";", ",")));  // decimal commas in quotation marks
+  CHECK_THAT(refusal(head + "\n0.00,1\n,\n0.01,2\n0.02,,3\n"), ContainsSubstring("line 5: expected finite numbers"));
+}
+
+TEST_CASE("files end in the marks of DOS, lines in carriage returns, and texts in UTF-16", "[records]") {
+  const std::string text = "Time (s),Acc (m/s2)\n" + rows(",", seconds);
+  is_the_record(read(text + std::string(100, '\x1A')));
+  is_the_record(read(text + std::string(82, '\0')));
+  is_the_record(read(text + "\x1A\r\n"));
+  is_the_record(read(replaced(text, "\n", "\r")));
+  for (const bool little : {true, false}) {
+    std::string wide = little ? "\xFF\xFE" : "\xFE\xFF";
+    for (const char c : text) wide += little ? std::string{c, '\0'} : std::string{'\0', c};
+    is_the_record(read(wide));
+  }
+  CHECK(one(std::string("\xFF\xFE#\0 \0\x3D\xD8\x0B\xDF\n\0", 12) +
+            [] {
+              std::string wide;
+              for (const char c : std::string("t,a (g)\n0,1\n.1,2\n")) wide += {c, '\0'};
+              return wide;
+            }())
+            .motion.name() == "\xF0\x9F\x9C\x8B");
+}
+
+TEST_CASE("a vertical component is never taken for a horizontal one", "[records]") {
+  const std::string table = rows(",", seconds);
+  for (const char* label : {"HNZ (m/s2)", "acc_z (m/s2)", "Acc_UD (m/s2)", "Up-Down (m/s2)",
+                            "Vertical component (m/s2)", "BHZ (m/s2)", "U-D (m/s2)", "a_ver (m/s2)", "up [m/s2]"}) {
+    CAPTURE(label);
+    CHECK(upward(one("t (s)," + std::string(label) + "\n" + table).motion.orientation()) == 1);
+  }
+  for (const char* file :
+       {"CPM-UP.txt", "folder/CPM_V.csv", "x.zip::a/CPM.UD", "CPM.Z.txt", "CPM-DWN.txt", "AICH04.UD2", "UP.txt"}) {
+    CAPTURE(file);
+    CHECK(upward(one(table, {.units = "m/s^2"}, file).motion.orientation()) != 0);
+  }
+  for (const char* file : {"CPM_N.csv", "CPM-090.txt", "velocity.txt", "backup.csv", "run_001.csv"}) {
+    CAPTURE(file);
+    CHECK(upward(one(table, {.units = "m/s^2"}, file).motion.orientation()) == 0);
+  }
+}
