@@ -13,7 +13,7 @@ import math
 import os
 import zlib
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
@@ -33,6 +33,7 @@ __all__ = [
     "read_columns",
     "write",
     "write_columns",
+    "write_joined",
 ]
 
 _CHUNK = 2**20  # bytes; arrays up to this size are one chunk
@@ -180,11 +181,30 @@ def write(h5: Any, name: str, values: Any) -> Any:
     if array.dtype.kind not in "biuf":
         array = np.array([str(one) for one in array.tolist()], object)
         how = {"dtype": optional("h5py", "suites", "write").string_dtype()}
-    elif array.size:  # an empty array has no chunks, which fletcher32 needs
-        how = {"chunks": True if array.nbytes > _CHUNK else array.shape, "fletcher32": True}
+    else:
+        how = _filtered(array.shape, array.nbytes)
     data = h5.create_dataset(name, data=array, **how)
     data.attrs["crc32"] = _checksum(array)
     return data
+
+
+def write_joined(h5: Any, name: str, parts: Sequence[NDArray[np.float64]]) -> None:
+    """Write the parts of an array one after the other, as `write` writes them joined."""
+    shape = (sum(part.size for part in parts),)
+    data = h5.create_dataset(name, shape, np.float64, **_filtered(shape, 8 * shape[0]))
+    checksum, begin = int(_checksum(np.empty(0), shape)), 0
+    for part in parts:
+        array = np.ascontiguousarray(part, np.float64)
+        data[begin : begin + array.size] = array
+        checksum, begin = zlib.crc32(_bytes(array), checksum), begin + array.size
+    data.attrs["crc32"] = np.uint32(checksum)
+
+
+def _filtered(shape: tuple[int, ...], size: int) -> dict[str, Any]:
+    """How an array of that many bytes is stored: in chunks, which `fletcher32` needs."""
+    if not size:
+        return {}  # an empty array has no chunks
+    return {"chunks": True if size > _CHUNK else shape, "fletcher32": True}
 
 
 def read(h5: Any, name: str, shape: tuple[int, ...] | None = None) -> NDArray[Any]:
@@ -228,12 +248,20 @@ def read_columns(h5: Any, name: str, length: int | None = None) -> dict[str, NDA
     return {key.replace("\\", "/"): read(h5[name], key, shape) for key in h5[name]}
 
 
-def _checksum(array: NDArray[Any]) -> np.uint32:
+def _checksum(array: NDArray[Any], shape: tuple[int, ...] | None = None) -> np.uint32:
+    """Of an array, or of the first part of one with another shape."""
+    content: bytes | memoryview
     if array.dtype.kind == "O":
         kind, content = "texts", "".join(f"{text}\0" for text in array.tolist()).encode()
     else:
-        kind, content = array.dtype.str, array.tobytes()
-    return np.uint32(zlib.crc32(content, zlib.crc32(f"{kind} {array.shape}".encode())))
+        kind, content = array.dtype.str, _bytes(array)
+    about = f"{kind} {array.shape if shape is None else shape}"
+    return np.uint32(zlib.crc32(content, zlib.crc32(about.encode())))
+
+
+def _bytes(array: NDArray[Any]) -> memoryview:
+    """The bytes of a contiguous array, not copied."""
+    return array.reshape(-1).view(np.uint8).data
 
 
 def _is_nothing(value: Any) -> bool:

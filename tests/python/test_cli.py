@@ -18,7 +18,7 @@ import pytest
 import stickslip as ss
 from sources import waiting_for
 from stickslip.cli import main
-from stickslip.motions.records import read_components
+from stickslip.motions.records import tried
 
 G = ss.STANDARD_GRAVITY
 
@@ -611,7 +611,7 @@ def test_without_enough_memory_there_is_one_line(capsys, record, monkeypatch, te
     said = "not enough memory" + (f": {text}" if text.startswith("U") else "")
     monkeypatch.setattr("stickslip.ensemble.run_ensemble", full)
     assert run_ensemble(capsys, *QUAKE) == (2, "", f"stickslip: {said}\n")
-    monkeypatch.setattr("stickslip.cli.batch.read_components", full)
+    monkeypatch.setattr("stickslip.cli.batch.tried", full)
     assert run(capsys, record, "--mu", 0.1) == (1, "", f"stickslip: {record}: {said}\n")
 
 
@@ -916,9 +916,9 @@ def test_errors_that_nobody_hears_are_told_by_the_exit_code_alone(record, stderr
 def test_a_warning_is_one_line(capsys, record, monkeypatch):
     def warned(*arguments, **options):
         warnings.warn("two\nlines", stacklevel=1)
-        return read_components(*arguments, **options)
+        return tried(*arguments, **options)
 
-    monkeypatch.setattr("stickslip.cli.batch.read_components", warned)
+    monkeypatch.setattr("stickslip.cli.batch.tried", warned)
     with warnings.catch_warnings():
         warnings.simplefilter("default")
         code, _, err = run(capsys, record, "--mu", 0.1)

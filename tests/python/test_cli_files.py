@@ -302,7 +302,16 @@ def test_records_tells_the_unit_of_the_file_or_that_it_was_given(capsys, tmp_pat
     silent.write_text("0,1\n0.1,2\n")
     code, out, _ = run(capsys, "records", stated)
     assert code == 0
-    head, first, second = out.splitlines()
+    head, first, second, blank, why, other = out.splitlines()
+    assert blank == "" and why.endswith(
+        "component 1: columns of numbers; unit cm/s^2 (label of column 2, line 1);"
+        " time step 0.1 s (times in column 1); orientation NS (in the file)"
+    )
+    assert "unit g (label of column 3, line 1)" in other
+    code, out, _ = run(capsys, "records", stated, silent, "--units", "g")
+    assert code == 0 and "columns of numbers" not in out
+    code, out, _ = run(capsys, "records", stated, silent, "--units", "g", "--why")
+    assert out.count("columns of numbers; unit") == 3 and "orientation unknown" in out
     place = head.index("units")
     assert first[place:].startswith("cm/s^2 (in the file)  ")
     assert second[place:].startswith("g (in the file)  ")

@@ -389,6 +389,44 @@ def test_a_motion_is_cut():
         NOISE.cut(0, 10)
 
 
+def test_a_slice_of_a_motion_is_a_motion():
+    part = NOISE[50:151]
+    assert part == NOISE.cut(1.0, 3.0)
+    assert NOISE[:] == NOISE
+    assert NOISE[-20:-10].acceleration.tolist() == NOISE.acceleration[-20:-10].tolist()
+    assert NOISE[450:10000] == NOISE[-50:]
+    uneven = ss.GroundMotion(
+        [1, 2, 3, 4, 5],
+        times=[0, 1, 3, 6, 10],
+        transverse=[5, 6, 7, 8, 9],
+        vertical=[0, 1, 0, 1, 0],
+        interpolation="constant",
+        name="A",
+        orientation="N28W",
+    )
+    assert uneven[1:4] == ss.GroundMotion(
+        [2, 3, 4],
+        times=[0, 2, 5],
+        transverse=[6, 7, 8],
+        vertical=[1, 0, 1],
+        interpolation="constant",
+        name="A",
+        orientation="N28W",
+    )
+    for few in (slice(3, 4), slice(4, 3), slice(5, None), slice(0, 0)):
+        with pytest.raises(ValueError, match=r"must hold at least 2 samples, got [01] of 5"):
+            uneven[few]
+    for step in (2, -1):
+        with pytest.raises(ValueError, match=f"must have the step 1, got {step}"):
+            uneven[::step]
+    with pytest.raises(TypeError, match=r"must be a slice, such as .*, got 3"):
+        uneven[3]
+    with pytest.raises(TypeError, match="not iterable"):
+        iter(uneven)
+    with pytest.raises(TypeError):
+        uneven["a":]
+
+
 def test_a_trend_is_taken_away():
     flat = NOISE.detrended()
     assert abs(flat.velocity[-1]) <= 1e-12
@@ -419,7 +457,7 @@ class Stats:
 
 
 class Trace:
-    data, stats, id = np.array([1, -2, 3], dtype=np.int32), Stats(), "XX.STA..HNE"
+    data, stats, id = np.array([1, -2, 3], dtype=np.float32), Stats(), "XX.STA..HNE"
 
 
 def test_a_trace_becomes_a_motion():
@@ -437,14 +475,14 @@ def test_a_trace_becomes_a_motion():
 @pytest.mark.parametrize(
     "channel, orientation",
     [
-        ("HNZ", "up"),
+        ("HNZ", "Z"),
         ("HNN", "N"),
         ("HNE", "E"),
         ("HN1", ""),
         ("", ""),
-        ("UD", "up"),
-        ("NS1", "N"),
-        ("EW2", "E"),
+        ("UD", "UD"),
+        ("NS1", "NS"),
+        ("EW2", "EW"),
         ("EW3", ""),
     ],
 )
@@ -456,7 +494,7 @@ def test_the_channel_of_a_trace_states_its_orientation(channel, orientation):
     assert motion.orientation == orientation
     assert motion.vertical is None
     both = [motion, ss.GroundMotion([0, 1, 0], dt=0.01)]
-    if orientation == "up":  # as is a vertical component from a file
+    if orientation in ("Z", "UD"):  # as is a vertical component from a file
         with pytest.raises(ValueError, match=r"1 of 2 are known to be vertical"):
             ss.sweep([ss.Coulomb(mu=0.1)], both)
     else:
@@ -494,8 +532,9 @@ def test_a_stream_of_obspy_becomes_a_station():
     north = ss.read_station(stream, along="N")
     assert np.array_equal(north.acceleration, samples[1])
     assert np.array_equal(north.transverse, samples[0])
+    second = obspy.Trace(samples[2], {**header, "channel": "HNZ", "location": "10"})
     with pytest.raises(ValueError, match="from_obspy: needs one vertical component at most"):
-        ss.GroundMotion.from_obspy(obspy.Stream([*traces, traces[2]]))
+        ss.GroundMotion.from_obspy(obspy.Stream([*traces, second]))
     slow = obspy.Trace(samples[1], {**header, "channel": "HNN", "delta": 0.02})
     with pytest.raises(ValueError, match="from_obspy: components must have the same time step"):
         ss.GroundMotion.from_obspy(obspy.Stream([traces[0], slow]))

@@ -78,7 +78,7 @@ def test_a_number_is_a_value_and_a_text_a_unit_an_orientation_or_a_column(folder
     suite = ss.Suite.read(folder / "slow.txt", dt="0.04", units="m/s^2", orientation="N28W")
     assert (suite[0].dt, suite[0].orientation) == (0.04, "N28W")
     assert suite[0].acceleration[7] == pulse(0.4)[7]
-    assert ss.Suite.read(folder / "slow.txt", dt=1, units="g", orientation=30)[0].orientation == (
+    assert ss.Suite.read(folder / "slow.txt", dt=0.1, units="g", orientation=30)[0].orientation == (
         "30"
     )
     known = "file, dt_s, unit, azimuth, magnitude"

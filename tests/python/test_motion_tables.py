@@ -79,7 +79,7 @@ def test_an_array_of_a_motion_is_its_acceleration():
     assert np.abs(np.asarray(motion)).max() == motion.peak_acceleration
     # A number times a motion is still a motion, not an array.
     assert isinstance(np.float64(2) * motion, ss.GroundMotion)
-    with pytest.raises(TypeError, match="not subscriptable"):
+    with pytest.raises(TypeError, match=r"must be a slice, .*a sample is motion.acceleration\[i\]"):
         motion[0]
 
 

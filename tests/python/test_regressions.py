@@ -411,14 +411,34 @@ def test_a_warning_names_the_line_of_the_caller(kobe):
     ("given", "words"),
     [
         ({"ky": 0, "pga": 0.5}, "ky must be positive and finite, got 0.0 g: a slope that yields"),
-        ({"ky": 0.1, "pga": math.nan}, "pga must be positive and finite, got nan g"),
-        ({"ky": [0.1, math.inf], "pga": 0.5}, "ky must be positive and finite, got inf g"),
+        ({"ky": 0.1, "pga": math.nan}, "pga must be at least 0 and finite, got nan g$"),
+        ({"ky": 0.1, "pga": -0.1}, "pga must be at least 0 and finite, got -0.1 g$"),
+        ({"ky": [0.1, math.inf], "pga": 0.5}, "ky must be .* finite, got inf g at index 1"),
+        ({"ky": 0.1, "pga": [[0.1, 0], [math.nan, 1]]}, r"got nan g at index \(1, 0\)"),
+        ({"ky": [0.1, 0], "pga": 0.5}, "got 0.0 g at index 1: a slope that yields"),
         ({"ky": [0.1, 0.2], "pga": [0.1, 0.2, 0.3]}, r"must broadcast, got the shapes ky \(2,\)"),
     ],
 )
 def test_a_value_out_of_range_is_named(given, words):
     with pytest.raises(ValueError, match=words):
         AmbraseysMenu1988().predict(**given)
+
+
+OF_MOTION = ("pga", "pgv", "Ia", "Sa")
+
+
+@every_form
+def test_where_nothing_shakes_nothing_moves(model, given):
+    d = model.predict(ky=0.05, **given)
+    for name in set(OF_MOTION) & given.keys():
+        cells = model.predict(ky=0.05, **given | {name: np.array([[given[name], 0]])})
+        assert cells.median.tolist() == [[d.median, 0]]
+        assert cells.p_zero.tolist() == [[d.p_zero, 1]]
+        still = model.predict(ky=0.05, **given | {name: 0})
+        assert (still.median, still.p_zero) == (0, 1)
+        if cells._sigma is not None:
+            assert cells.exceedance(1e-6).tolist() == [[d.exceedance(1e-6), 0]]
+            assert cells.quantile(0.99).tolist() == [[d.quantile(0.99), 0]]
 
 
 def test_a_combination_that_no_form_takes_is_named(kobe):

@@ -43,6 +43,7 @@ quake = ss.GroundMotion(np.ones(3, np.float32), times=np.arange(3), interpolatio
 quake = ss.read_record(Path("kobe.AT2"), units="g", component=1)
 step: float | None = quake.dt
 quake = ss.GroundMotion([0, 1], dt=0.01, units="g").scaled_to(pga_g=0.4).cut(0, np.float64(0.01))
+quake = quake[10:-5][: np.int64(100)]
 quake = -(2 * quake / np.float32(3)).resampled(0.005).detrended(order=1) * 2
 ground: NDArray[np.float64] = quake.velocity + quake.displacement
 picture = quake.plot(title="mine")
@@ -223,6 +224,7 @@ ss.run_ensemble(block, ss.Drawn([block]), members=10, seed=1)  # type: ignore[li
 ss.run_ensemble(block, Mine(), members=1e3, seed=1)  # type: ignore[arg-type]
 ss.run_ensemble(block, Mine(), members=10)  # type: ignore[call-arg]
 ss.theory.StationaryLinearization().predict(wheel, soil)  # type: ignore[call-overload]
+quake[0]  # type: ignore[index]
 ss.nothing  # type: ignore[attr-defined]
 """
 

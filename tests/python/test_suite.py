@@ -2,6 +2,7 @@
 
 import math
 import pickle
+import tracemalloc
 import warnings
 import zipfile
 
@@ -308,6 +309,21 @@ def test_a_saved_suite_is_the_same_to_the_last_bit(tmp_path):
     assert pickle.loads(pickle.dumps(suite)) == suite
     assert suite != SUITE
     assert suite.with_metadata({"magnitude": [0.0] * 6}) != suite
+
+
+def test_a_suite_is_saved_within_the_memory_of_its_file(tmp_path):
+    pytest.importorskip("h5py")
+    samples = np.random.default_rng(5).normal(size=(60, 5000))
+    suite = ss.Suite(ss.GroundMotion(n, dt=0.01) for n in samples)
+    suite[:1].save(tmp_path / "first.h5")  # imports h5py
+    tracemalloc.start()
+    try:
+        file = suite.save(tmp_path / "s.h5")
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert peak < 1.5 * samples.nbytes
+    assert ss.Suite.open(file) == suite
 
 
 def test_all_components_are_saved_and_told_apart(tmp_path):

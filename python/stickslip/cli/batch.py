@@ -17,7 +17,16 @@ from .._failures import grouped, with_options
 from .._paths import expanded, is_same_file
 from .._text import printable
 from ..motions.metadata import Metadata, orientation_text, readings
-from ..motions.records import Component, Reading, files_in, read_components
+from ..motions.records import (
+    Component,
+    File,
+    NotARecord,
+    Reading,
+    read_components,
+    trend_order,
+    tried,
+    without_trend,
+)
 from ..motions.samples import sample_files, sample_record
 from ..motions.stations import Part, stations_of
 from .output import FAILURES, check_outputs, complain, json_text, reason_of, write_csv
@@ -76,6 +85,15 @@ def add_files(parser: argparse.ArgumentParser) -> None:
         help="CSV file with a row for each record, identified by a column file, record or name; its"
         " columns units, dt (or dt_s) and orientation apply",
     )
+    add(
+        "--detrend",
+        nargs="?",
+        choices=("mean", "line"),
+        const="mean",
+        metavar="WHAT",
+        help="remove the mean of each acceleration, or the straight line that fits it best: mean"
+        " (default) or line; for records without a corrected baseline, as of K-NET",
+    )
     add("--gaps", action="store_true", help="accept time steps over ten times the median")
     add(
         "--strict",
@@ -114,6 +132,9 @@ class Motion(NamedTuple):
     component: int | None  # from 1, where all are read
     units: str  # of the acceleration in the file; empty where it states none
     given: str | None = None  # the unit where the file states none
+    member: str = ""  # of an archive of several
+    # The format of the file; where unit, time step and orientation stand.
+    sources: tuple[str, str, str, str] = ("", "", "", "")
 
 
 class Batch:
@@ -159,6 +180,7 @@ class Batch:
                 f"--orientation needs one direction for each of the {len(self.files)} records, got"
                 f" {len(self._directions)}"
             )
+        self._trend = trend_order(args.detrend, "--detrend")
         self.station = getattr(args, "station", False)
         self.pairs = getattr(args, "pairs", False)  # stations need both horizontal components
         self.vertical: Path | None = getattr(args, "vertical", None)
@@ -226,10 +248,48 @@ class Batch:
         """The ground motions of separate files."""
         for place, file in enumerate(self.files):
             with self.reported(file):
+                chosen = self.args.component
+                which = None if chosen in ("all", "vertical") else chosen
                 with self._warnings(file):
-                    found = self._read(place, file)
-                for one in found:
-                    yield place, file, one
+                    found = self._tried(place, file, which, only_one=chosen is None)
+                if self.vertical is not None and len(found) > 1:
+                    raise ValueError(f"--vertical goes with one record, got {len(found)}")
+                for one, components in found:
+                    path = Path(one.shown)
+                    with self.reported(path):
+                        motions = self._chosen(place, path, components)
+                        if len(found) > 1:
+                            member = Path(one.shown.rpartition("::")[2]).stem
+                            motions = [m._replace(member=member) for m in motions]
+                        for motion in motions:
+                            yield place, path, self._finished(path, motion)
+
+    def _tried(
+        self, place: int, file: Path, component: str | None = None, only_one: bool = False
+    ) -> list[tuple[File, list[Component]]]:
+        """What could be read of a file, or of all in an archive; keeps the rest for the end."""
+        if str(file).startswith(_SAMPLE):
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", PlausibilityWarning)  # `_finished` warns
+                motion = sample_record(str(file).removeprefix(_SAMPLE))
+            return [(File(str(file), bytes), [Component(motion, "", "", "g")])]
+        if file.is_dir():
+            raise ValueError("the folder holds no files")
+
+        def read(one: File) -> list[Component]:
+            return one.components(self._reading_of(place, one.shown), component, only_one)
+
+        found = []
+        for one, answer in tried(file, read):
+            if isinstance(answer, NotARecord):
+                reason = reason_of(answer, Path(one.shown))
+                self.left_out.append({"file": one.shown, "reason": reason})
+            elif isinstance(answer, Exception):
+                with self.reported(Path(one.shown)):
+                    raise answer
+            else:
+                found.append((one, answer))
+        return found
 
     @contextlib.contextmanager
     def _warnings(self, file: Path) -> Iterator[None]:
@@ -253,50 +313,46 @@ class Batch:
     def picture(self, place: int, motion: Motion) -> Path:
         """The name of the picture of one motion of a file."""
         picture = self.pictures[place]
-        if motion.component is None:
+        parts = [part for part in (motion.member, motion.component) if part]
+        if not parts:
             return picture
-        picture = picture.with_stem(f"{picture.stem}-{motion.component}")
+        picture = picture.with_stem("-".join([picture.stem, *map(str, parts)]))
         check_outputs([("--plot", picture)], self.inputs)
         return picture
 
-    def _read(self, place: int, file: Path) -> list[Motion]:
-        found = self._read_horizontal(place, file)
-        if self.vertical is None:
-            return found
-        try:
-            reading = self._reading(str(self.vertical))._replace(orientation=None)
-            (up,) = read_components(self.vertical, reading, only_one=True)
-        except FAILURES as error:  # else the line on stderr would name the record
-            raise ValueError(f"--vertical: {reason_of(error)}") from error
-        return [one._replace(motion=_with_vertical(one.motion, up.motion)) for one in found]
+    def _finished(self, file: Path, found: Motion) -> Motion:
+        """A motion with --vertical and --detrend; prints warnings."""
+        motion = found.motion
+        if self.vertical is not None:
+            try:
+                reading = self._reading(str(self.vertical))._replace(orientation=None)
+                (up,) = read_components(self.vertical, reading, only_one=True)
+            except FAILURES as error:  # else the line on stderr would name the record
+                raise ValueError(f"--vertical: {reason_of(error)}") from error
+            motion = _with_vertical(motion, up.motion)
+        motion = without_trend(motion, self._trend)
+        with self._warnings(file):
+            warn_if_implausible(motion, "read_record")
+        return found._replace(motion=motion)
 
     def _reading_of(self, place: int, file: str) -> Reading:
         """What the reader of a file is given."""
         given = self._reading(file)
         return given._replace(orientation=self._directions[place]) if self._directions else given
 
-    def _read_horizontal(self, place: int, file: Path) -> list[Motion]:
-        if str(file).startswith(_SAMPLE):
-            return [Motion(sample_record(str(file).removeprefix(_SAMPLE)), None, "g")]
-        if file.is_dir():
-            raise ValueError("the folder holds no files")
+    def _chosen(self, place: int, file: Path, found: list[Component]) -> list[Motion]:
+        """The components along which the command slides."""
         chosen = self.args.component
-        every = chosen in ("all", "vertical")
         reading = self._reading_of(place, str(file))
-        found = read_components(
-            file, reading, component=None if every else chosen, only_one=chosen is None
-        )
         motions = []
         for k, one in enumerate(found, 1):
             if chosen == "vertical" and not one.is_vertical:
                 continue
             if chosen in (None, "all") and self._leaves_out(str(file), one):
                 continue
-            warn_if_implausible(one.motion, "read_record")
             number = k if len(found) > 1 else None
-            motions.append(
-                Motion(one.motion, number, one.units, reading.row_units or reading.units)
-            )
+            given = reading.row_units or reading.units
+            motions.append(Motion(one.motion, number, one.units, given, sources=one.sources))
         if chosen == "vertical" and not motions:
             raise ValueError("no component is known to be vertical")
         return motions
@@ -319,10 +375,9 @@ class Batch:
                     raise ValueError(
                         "a sample record has one component; give the files of a station"
                     )
-                if file.is_dir():
-                    raise ValueError("the folder holds no files")
-                for one in files_in(file):
-                    found = one.components(self._reading_of(place, one.shown))
+                with self._warnings(file):
+                    tried_files = self._tried(place, file)
+                for one, found in tried_files:
                     parts += [Part(one.shown, k, part) for k, part in enumerate(found, 1)]
                     places[one.shown] = place
         stations = stations_of(
@@ -342,11 +397,12 @@ class Batch:
                         f"needs a transverse component, found only '{station.motion.name}': give"
                         " the file of the other horizontal component, too"
                     )
+                motion = without_trend(station.motion, self._trend)
                 with self._warnings(file):
                     if station.reason:
                         warnings.warn(f"{file}: {station.reason}", RuntimeWarning, stacklevel=1)
-                    warn_if_implausible(station.motion, "read_station")
-                yield place, file, Motion(station.motion, None, only.units)
+                    warn_if_implausible(motion, "read_station")
+                yield place, file, Motion(motion, None, only.units)
 
     def _pictures(self) -> Iterator[Path]:
         """One picture for each record, where a number distinguishes records of the same name, or
@@ -412,4 +468,4 @@ def _in_words_of_the_command(text: str) -> str:
     _, _, rest = text.partition(": the ")
     text = f"the {rest}" if rest else text
     text = text.replace("check the units", "check the units, with --units if the file states none")
-    return text.replace(", which .detrended() removes", "")
+    return text.replace(", which .detrended() removes", ", which --detrend removes")

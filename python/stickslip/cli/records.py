@@ -29,6 +29,10 @@ _COLUMNS = (
     "d5_95_s",
     "units",
     "units_from",
+    "format",
+    "units_at",
+    "dt_at",
+    "orientation_at",
 )
 
 _FROM = {"file": "(in the file)", "option": "(given)"}
@@ -42,7 +46,8 @@ def add_records(commands: argparse._SubParsersAction) -> None:
         " orientation, time step, samples, duration, peak ground acceleration and velocity, Arias"
         " intensity and the significant duration D5-95, with units in the heading, and the unit of"
         " the acceleration in the file, or that of --units if the file states none. The velocity is"
-        " integrated from the record as it is, without baseline correction.",
+        " integrated from the record as it is, without baseline correction. For one file, or with"
+        " --why, it also prints what was understood of each file, and where it stands.",
         epilog="A file that cannot be read is reported in one line on stderr; the others are"
         " printed, and the exit code is 1.",
     )
@@ -51,6 +56,12 @@ def add_records(commands: argparse._SubParsersAction) -> None:
     add_files(parser)
     add("--csv", type=Path, metavar="FILE", help="table with units in its heading, exact doubles")
     add("--json", action="store_true", help="one JSON document, exact doubles")
+    add(
+        "--why",
+        action="store_true",
+        help="also print the format of each file, and where it states"
+        " unit, time step and orientation; always printed for one file",
+    )
     parser.set_defaults(horizontal=False, run=_records, component="all", plot=None)
 
 
@@ -86,7 +97,8 @@ def _records(args: argparse.Namespace) -> str:
     if args.json:
         return json_text({"records": rows, "errors": said["errors"]})
     wrote = [f"wrote {printable(str(args.csv))}"] if args.csv else []
-    return "\n".join([*_table(rows), *wrote])
+    why = ["", *_why(rows)] if args.why or len({row["file"] for row in rows}) == 1 else []
+    return "\n".join([*_table(rows), *why, *wrote])
 
 
 def _row(file: Path, found: Motion) -> dict[str, Any]:
@@ -106,7 +118,27 @@ def _row(file: Path, found: Motion) -> dict[str, Any]:
         "d5_95_s": measures.duration,
         "units": found.units or found.given,
         "units_from": "file" if found.units else "option",
+        **dict(zip(("format", "units_at", "dt_at", "orientation_at"), found.sources)),
     }
+
+
+def _why(rows: list[dict[str, Any]]) -> Iterable[str]:
+    """What was understood of each component, and where it stands."""
+    for row in rows:
+        name = printable(row["record"] or row["file"])
+        number = f", component {row['component']}" if row["component"] else ""
+        dt = "uneven times" if row["dt_s"] is None else f"time step {row['dt_s']:.6g} s"
+        points = row["orientation"]
+        pointed = (
+            f"orientation {printable(points)} ({row['orientation_at']})"
+            if points
+            else ("orientation unknown")
+        )
+        yield (
+            f"{name}{number}: {row['format'] or 'known without a file'};"
+            f" unit {row['units']} ({row['units_at'] or 'stated'});"
+            f" {dt} ({row['dt_at'] or 'stated'}); {pointed}"
+        )
 
 
 def _table(rows: list[dict[str, Any]]) -> Iterable[str]:

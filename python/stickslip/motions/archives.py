@@ -1,15 +1,18 @@
-"""Files as they are stored: in gzip files, zip and tar archives."""
+"""Files as they are stored: compressed by gzip, bzip2 or xz, in zip and tar archives."""
 
 from __future__ import annotations
 
 import errno
+import importlib
+import io
 import os
+import re
 import stat
 import sys
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
-__all__ = ["Archive", "archive_in", "gunzipped", "stored", "unpacked"]
+__all__ = ["Archive", "archive_in", "decompressed", "stored", "unpacked"]
 
 
 def stored(shown: str) -> tuple[bytes, list[str]]:
@@ -30,14 +33,14 @@ def stored(shown: str) -> tuple[bytes, list[str]]:
 
 _DEEPEST = 4  # archives within archives, of which nobody has made more
 _LARGEST = 64 << 20  # bytes of a record in an archive: 500,000 samples of three components take 20
-_LARGEST_TAR = 1 << 30  # bytes of a tar archive in a gzip file
+_LARGEST_TAR = 1 << 30  # bytes of a tar archive in a compressed file
 
 
 def unpacked(content: bytes, members: Sequence[str], shown: str) -> bytes:
     """The one file that is meant, out of what it is packed in."""
     left = list(members)
     for _ in range(_DEEPEST):
-        content = gunzipped(content, shown)
+        content = decompressed(content, shown)
         archive = archive_in(content, shown)
         if archive is None:
             break
@@ -45,7 +48,9 @@ def unpacked(content: bytes, members: Sequence[str], shown: str) -> bytes:
         member = left.pop(0) if left else names[0] if len(names) == 1 else None
         if member is None or member not in names:
             known = ", ".join(names[:12]) + (", ..." if len(names) > 12 else "")
-            which = "name one as archive.zip::member" if member is None else "no such member"
+            which = "no such member"
+            if member is None:
+                which = "name one as archive.zip::member; read_station and Suite.read read all"
             raise ValueError(
                 f"read_record: {shown}: {which}; the archive holds {len(names)} files: {known}"
             )
@@ -63,7 +68,6 @@ class Archive(NamedTuple):
 
 def archive_in(content: bytes, shown: str) -> Archive | None:
     """What a zip or tar archive holds; None for any other file."""
-    import io
     import tarfile
     import zipfile
 
@@ -122,22 +126,49 @@ def _too_large(shown: str, limit: int) -> ValueError:
     )
 
 
-def gunzipped(content: bytes, shown: str) -> bytes:
-    """What a gzip file holds; any other as it is."""
-    if not content.startswith(b"\x1f\x8b"):
-        return content
-    import gzip
-    import io
-    import zlib
+_GZIP, _XZ = b"\x1f\x8b", b"\xfd7zXZ\0"
+_BZIP2 = re.compile(rb"BZh[1-9](1AY&SY|\x17rE8P\x90)")
 
+
+def _decompressor(content: bytes) -> str:
+    """The module that decompresses a file; empty if it is not compressed."""
+    if content.startswith(_GZIP):
+        return "gzip"
+    if content.startswith(_XZ):
+        return "lzma"
+    return "bz2" if _BZIP2.match(content) else ""
+
+
+def decompressed(content: bytes, shown: str) -> bytes:
+    """What a file compressed by gzip, bzip2 or xz holds; any other as it is."""
+    module = ""
     try:
         for _ in range(2):  # no more layers: there are files that unpack to themselves
-            if content.startswith(b"\x1f\x8b"):
-                stream = gzip.GzipFile(fileobj=io.BytesIO(content))
-                begin = stream.read(512)
-                packed = begin[257:262] == b"ustar" or begin.startswith(b"\x1f\x8b")
-                limit = _LARGEST_TAR if packed else _LARGEST
-                content = begin + _limited(stream, limit, shown)
+            module = _decompressor(content)
+            if not module:
+                break
+            stream = importlib.import_module(module).open(io.BytesIO(content))
+            begin = stream.read(512)
+            packed = begin[257:262] == b"ustar" or _decompressor(begin)
+            content = begin + _limited(stream, _LARGEST_TAR if packed else _LARGEST, shown)
         return content
-    except (OSError, EOFError, zlib.error) as error:
-        raise ValueError(f"read_record: {shown}: damaged gzip file: {error}") from None
+    except Exception as error:
+        if not isinstance(error, _errors_of(module)):
+            raise
+        name = {"lzma": "xz", "bz2": "bzip2"}.get(module, module)
+        reason = str(error) or type(error).__name__
+        raise ValueError(f"read_record: {shown}: damaged {name} file: {reason}") from None
+
+
+def _errors_of(module: str) -> tuple[type[Exception], ...]:
+    """What is raised if a compressed file is damaged."""
+    if module == "gzip":
+        import zlib
+
+        return (EOFError, OSError, zlib.error)
+    if module == "lzma":
+        import lzma
+
+        # MemoryError: the file says how much memory it needs.
+        return (EOFError, OSError, lzma.LZMAError, MemoryError)
+    return (EOFError, OSError)

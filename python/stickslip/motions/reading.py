@@ -5,7 +5,7 @@ from __future__ import annotations
 import operator
 import os
 import warnings
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, Literal, NamedTuple, Protocol, TypeVar
@@ -19,7 +19,7 @@ from .._paths import expanded, is_same_file
 from .._text import printable
 from ..runs.progress import Progress, shown
 from .metadata import Metadata, readings
-from .records import Component, File, Reading, files_in
+from .records import Answer, Component, File, NotARecord, trend_order, tried, without_trend
 from .stations import Part, stations_of
 
 __all__ = ["LeftOut", "free_names", "read_suite"]
@@ -56,6 +56,7 @@ def read_suite(
     dt: float | str | None,
     orientation: float | str | None,
     gaps: bool,
+    detrend: str | None,
     stations: bool,
     along: str | float | None,
     common_length: bool,
@@ -74,6 +75,7 @@ def read_suite(
     if not stations and (along is not None or common_length):
         given = "along" if along is not None else "common_length"
         raise ValueError(f"Suite.read: {given} needs stations=True")
+    trend = trend_order(detrend, "Suite.read: detrend")
     table = None if metadata is None else Metadata(metadata)
     stated = readings(
         "Suite.read: {}", table, units=units, dt=dt, orientation=orientation, gaps=gaps
@@ -86,13 +88,16 @@ def read_suite(
     every = stations or component in ("all", "vertical")
     one = None if every else component
 
-    def read_file(path: Path) -> list[tuple[str, list[Component] | Exception]]:
+    def components(file: File) -> list[Component]:
+        return file.components(stated(file.shown), one, only_one=not every)
+
+    def read_file(path: Path) -> list[tuple[str, Answer]]:
         try:
-            return [(file.shown, _tried(file, stated, one, every)) for file in files_in(path)]
+            return [(file.shown, answer) for file, answer in tried(path, components)]
         except (OSError, ValueError) as error:
             return [(str(path), error)]
 
-    found: list[tuple[str, list[Component] | Exception]] = []
+    found: list[tuple[str, Answer]] = []
     pool = ThreadPoolExecutor(threads or os.cpu_count() or 1)
     try:
         with shown(progress, "Suite.read", "files") as report:
@@ -101,10 +106,15 @@ def read_suite(
                 report(done, len(paths))
     finally:
         pool.shutdown(cancel_futures=True)
+    beside = [
+        LeftOut(file, _reason(answer, file))
+        for file, answer in found
+        if isinstance(answer, NotARecord)
+    ]
     left = [
         LeftOut(file, _reason(answer, file))
         for file, answer in found
-        if isinstance(answer, Exception)
+        if isinstance(answer, Exception) and not isinstance(answer, NotARecord)
     ]
     parts = [
         Part(file, number, part)
@@ -152,6 +162,7 @@ def read_suite(
         which = "vertical" if component == "vertical" else "horizontal"
         other = "" if which == "vertical" else '; component="vertical" reads vertical ones'
         raise ValueError(f"Suite.read: no {which} component in {_shown_source(files)}{other}")
+    motions = [without_trend(motion, trend) for motion in motions]
     for motion in motions:
         _core._warn_if_implausible(motion, "read_record", 3)
     if table:
@@ -160,7 +171,7 @@ def read_suite(
     else:
         renamed = ""
     suite = kind(motions, columns)
-    suite.left_out, suite.alone = (*left, *vertical), tuple(alone)
+    suite.left_out, suite.alone = (*left, *beside, *vertical), tuple(alone)
 
     def say(message: str) -> None:
         warnings.warn(message, RuntimeWarning, stacklevel=4)
@@ -169,6 +180,9 @@ def read_suite(
         say(f"Suite.read: {renamed}")
     if left:
         say(_failures("Suite.read: ", left, len(found), "; they are left out"))
+    if beside:
+        lines = grouped_reasons((one.file, one.reason) for one in beside)
+        say(f"Suite.read: left out, because they are no records:{_listed(lines)}")
     if vertical:
         lines = grouped_reasons((one.file, one.reason) for one in vertical)
         say(f"Suite.read: left out, because sliders move horizontally:{_listed(lines)}")
@@ -188,15 +202,6 @@ def read_suite(
             stacklevel=3,
         )
     return suite
-
-
-def _tried(
-    file: File, reading: Callable[[str], Reading], component: str | int | None, every: bool
-) -> list[Component] | Exception:
-    try:
-        return file.components(reading(file.shown), component, only_one=not every)
-    except (OSError, ValueError) as error:
-        return error
 
 
 def _files(source: Any) -> list[Path]:

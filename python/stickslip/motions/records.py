@@ -22,7 +22,7 @@ from typing import (
 from .. import _core
 from .._core import GroundMotion
 from .._rows import Rows
-from .archives import archive_in, gunzipped, stored, unpacked
+from .archives import archive_in, decompressed, stored, unpacked
 
 _File: TypeAlias = "str | bytes | os.PathLike[str] | os.PathLike[bytes]"
 _Stream: TypeAlias = Any  # of ObsPy
@@ -37,6 +37,9 @@ class Component(NamedTuple):
     name: str  # in the file; empty where it has none
     start: str  # when it begins, in the words of the file; empty where it does not say
     units: str  # of the acceleration in the file; empty where it states none
+    sensor: str = ""  # where it is, such as borehole, if the file says so
+    # The format of the file; where unit, time step and orientation stand.
+    sources: tuple[str, str, str, str] = ("", "", "", "")
 
     @property
     def is_vertical(self) -> bool:
@@ -67,6 +70,7 @@ def read_record(
     component: Literal["all"],
     dt: SupportsFloat | None = None,
     gaps: bool = False,
+    detrend: Literal["mean", "line"] | None = None,
 ) -> list[GroundMotion]: ...
 @overload
 def read_record(
@@ -76,6 +80,7 @@ def read_record(
     component: str | SupportsIndex | None = None,
     dt: SupportsFloat | None = None,
     gaps: bool = False,
+    detrend: Literal["mean", "line"] | None = None,
 ) -> GroundMotion: ...
 def read_record(
     file: _File,
@@ -84,11 +89,14 @@ def read_record(
     component: str | SupportsIndex | None = None,
     dt: SupportsFloat | None = None,
     gaps: bool = False,
+    detrend: Literal["mean", "line"] | None = None,
 ) -> GroundMotion | list[GroundMotion]:
     """Read a strong-motion record.
 
-    The content determines the format; `record_formats` lists the known ones. ObsPy reads all other
-    files if it is installed, with `units` from the caller.
+    The content determines the format; `record_formats` lists the known ones. A JSON file is an
+    event of SimCenter: uniform acceleration in the directions 1, 2 and 3, H1, H2 and UP. ObsPy
+    reads all other files if it is installed, with `units` from the caller, under the rules of
+    `GroundMotion.from_obspy`.
 
     A file of columns holds times [s] and one or several accelerations, or one acceleration with
     `dt`. Columns are separated by commas, semicolons, tabs or blanks; comments and labels may
@@ -99,8 +107,9 @@ def read_record(
     Parameters
     ----------
     file : path-like
-        A plain file; a gzip file; a zip or tar archive of one file (``.zip``, ``.tar``,
-        ``.tar.gz``); ``"archive.zip::member"``, a file in an archive; or ``"-"``, standard input.
+        A plain file; one compressed by gzip, bzip2 or xz; a zip or tar archive of one file
+        (``.zip``, ``.tar``, ``.tar.gz``, ``.tar.xz``); ``"archive.zip::member"``, a file in an
+        archive; or ``"-"``, standard input.
     units : str, optional
         Unit of acceleration if the file does not state one: 'g', 'm/s^2', 'cm/s^2', 'gal',
         'mm/s^2', 'ft/s^2', 'in/s^2'. An error if the file states another one.
@@ -111,6 +120,9 @@ def read_record(
         Time step [s] of a file with one column. An error if the file states another one.
     gaps : bool, optional
         Accept gaps, time steps over ten times the median, as straight lines.
+    detrend : {'mean', 'line'}, optional
+        Remove the mean, or the straight line that fits best, as `GroundMotion.detrended` does: for
+        records without a corrected baseline, as of K-NET.
 
     Returns
     -------
@@ -135,6 +147,7 @@ def read_record(
         The maximum or mean acceleration is implausible for a record in these units.
     """
     every = component == "all"
+    trend = trend_order(detrend, "read_record: detrend")
     whole = file_at(file)
     found = _parsed(
         whole.content(),
@@ -145,7 +158,7 @@ def read_record(
         dt=dt,
         gaps=gaps,
     )
-    motions = [one.motion for one in found]
+    motions = [without_trend(one.motion, trend) for one in found]
     for motion in motions:
         _core._warn_if_implausible(motion, "read_record", 2)
     return motions if every else motions[0]
@@ -161,6 +174,7 @@ def read_station(
     units: str | None = None,
     dt: SupportsFloat | None = None,
     gaps: bool = False,
+    detrend: Literal["mean", "line"] | None = None,
 ) -> GroundMotion:
     """Read the components of one station as one ground motion.
 
@@ -176,10 +190,10 @@ def read_station(
     ----------
     files : path-like, sequence of path-like or obspy.Stream
         One file with all components, or several files, each as for `read_record`. An archive of
-        several files represents all of them. Together they hold one or two horizontal components
-        and at most one vertical component. The traces of a stream are components of acceleration
-        without gaps, in `units` (default: m/s^2); the last letter of each channel, N, E or Z, or
-        the channel NS, EW or UD of the Japanese networks, is its orientation.
+        several files represents all records in it; velocities, lists and texts beside them are left
+        out. Together they hold one or two horizontal components and at most one vertical component.
+        The traces of a stream are components of acceleration, each as for
+        `GroundMotion.from_obspy`.
     along : str or float, optional
         Direction of the axis: the name or orientation of a horizontal component, or any azimuth
         [degrees clockwise from north]. Default: the first horizontal component.
@@ -192,7 +206,7 @@ def read_station(
         None for that in the file.
     common_length : bool, optional
         Cut all components to the shortest one; otherwise different lengths are an error.
-    units, dt, gaps
+    units, dt, gaps, detrend
         As for `read_record`; they apply to all files.
 
     Returns
@@ -213,16 +227,23 @@ def read_station(
     PlausibilityWarning
         As for `read_record`, about the component along the axis.
     """
+    trend = trend_order(detrend, "read_station: detrend")
     if hasattr(files, "traces"):
-        components = _of_traces(files, units or "m/s^2")
+        from .traces import components_of
+
+        components = components_of(files.traces, units)
     else:
         paths = [files] if isinstance(files, str | bytes | os.PathLike) else list(files)
-        components = [
-            part
-            for path in paths
-            for file in files_in(path)
-            for part in _parsed(file.content(), file.shown, units=units, dt=dt, gaps=gaps)
-        ]
+        components = []
+        for path in paths:
+            for _, answer in tried(
+                path,
+                lambda file: _parsed(file.content(), file.shown, units=units, dt=dt, gaps=gaps),
+            ):
+                if isinstance(answer, list):
+                    components += answer
+                elif not isinstance(answer, NotARecord):
+                    raise answer
     given = [None] * len(components) if orientations is None else list(orientations)
     if len(given) != len(components):
         raise ValueError(
@@ -236,8 +257,23 @@ def read_station(
     if component is not None:
         axis = _axis_of(components, directions, component)
     motion = _core._station_motion(components, directions, axis, common_length)
+    motion = without_trend(motion, trend)
     _core._warn_if_implausible(motion, "read_station", 2)
     return motion
+
+
+_TRENDS = {"mean": 0, "line": 1}
+
+
+def trend_order(detrend: str | None, who: str) -> int | None:
+    """The order of the polynomial that is removed; None for none."""
+    if detrend is not None and detrend not in _TRENDS:
+        raise ValueError(f"{who} must be 'mean' or 'line', got {detrend!r}")
+    return None if detrend is None else _TRENDS[detrend]
+
+
+def without_trend(motion: GroundMotion, order: int | None) -> GroundMotion:
+    return motion if order is None else motion.detrended(order)
 
 
 def record_formats() -> Rows:
@@ -256,16 +292,16 @@ def record_formats() -> Rows:
 def _axis_of(
     components: Sequence[Component],
     directions: Sequence[str | None],
-    chosen: str | SupportsIndex,
+    wanted: str | SupportsIndex,
 ) -> str:
     """The orientation of the component of that name or number, which must be horizontal."""
     names = [one.name for one in components]
     known = ", ".join(f"{i} {name}".strip() for i, name in enumerate(names, 1))
-    places = _chosen(names, chosen)
+    places = chosen(names, wanted)
     if not places:
         raise ValueError(
             "read_station: component must be the name or number of one component, available:"
-            f" {known}; got {chosen!r}"
+            f" {known}; got {wanted!r}"
         )
     place = places[0]
     orientation = directions[place] or components[place].motion.orientation
@@ -278,12 +314,23 @@ def _axis_of(
     return orientation
 
 
-def _chosen(names: Sequence[str], wanted: str | SupportsIndex) -> list[int]:
+def chosen(names: Sequence[str], wanted: str | SupportsIndex) -> list[int]:
     """The place of the one component of that name, else of that number from 1; or none."""
     text = wanted if isinstance(wanted, str) else str(index(wanted))
     named = [i for i, name in enumerate(names) if name.lower() == text.lower()]
     found = named or [i for i in range(len(names)) if str(i + 1) == text]
     return found if len(found) == 1 else []
+
+
+def selected(names: Sequence[str], wanted: str | None, only_one: bool) -> list[int]:
+    """The places of the components that are meant, all of them by default."""
+    places = list(range(len(names))) if wanted is None else chosen(names, wanted)
+    if len(places) != 1 and (only_one or wanted is not None):
+        known = ", ".join(f"{i} {name}" for i, name in enumerate(names, 1))
+        raise ValueError(
+            f"select one component by name or number, available: {known}; got {wanted or ''!r}"
+        )
+    return places
 
 
 def direction(value: str | SupportsFloat, name: str, who: str = "read_station") -> str:
@@ -313,6 +360,11 @@ def _parsed(
     """The components in the content of a file; a default applies if the file states nothing."""
     wanted = None if component is None else _text(component)
 
+    if content[:64].lstrip().startswith(b"{") and b'"timeSeries"' in content:
+        from .simcenter import components_of
+
+        return components_of(content, shown, units, default_units, wanted, only_one, dt)
+
     def parse() -> list[Any]:
         return _core._parse_components(
             content,
@@ -330,12 +382,18 @@ def _parsed(
         parts = parse() if len(content) < _LONG else _interruptible(parse)
         return [Component(*part) for part in parts]
     except ValueError:
-        # Formats of columns have no reference: they accept any file with numbers.
-        known = _core._record_format(content)
-        stream = None if known and known["reference"] else _by_obspy(content)
+        from .traces import in_file, read_by_obspy  # which few files need
+
+        stream = None if _is_of_an_agency(content) else read_by_obspy(content)
         if stream is None:
             raise
-    return _of_stream(stream, shown, units or default_units, wanted, only_one)
+    return in_file(stream, shown, units, default_units, wanted, only_one)
+
+
+def _is_of_an_agency(content: bytes) -> bool:
+    """Whether a file has a format of its own: those of columns accept any file with numbers."""
+    known = _core._record_format(content)
+    return bool(known and known["reference"])
 
 
 _LONG = 8 << 20  # bytes that take about a second
@@ -451,7 +509,7 @@ def files_in(file: _File) -> list[File]:
     """
     shown = _shown(file)
     packed, members = stored(shown)
-    content = gunzipped(packed, shown)
+    content = decompressed(packed, shown)
     archive = None if members else archive_in(content, shown)
     if archive is None or len(archive.names) <= 1:
         return [File(shown, lambda: unpacked(content, members, shown))]
@@ -461,6 +519,58 @@ def files_in(file: _File) -> list[File]:
         return File(path, lambda: unpacked(archive.read(name), [], path))
 
     return [inside(name) for name in archive.names]
+
+
+class NotARecord(ValueError):
+    """A file that is none of the records that an archive holds: velocity, a list, a text."""
+
+
+Answer: TypeAlias = "list[Component] | Exception"
+
+
+def tried(file: _File, read: Callable[[File], list[Component]]) -> list[tuple[File, Answer]]:
+    """The components in each of the files that one stands for, or why they cannot be read."""
+
+    files = files_in(file)
+
+    def answer(one: File) -> Answer:
+        if len(files) > 1 and one.shown.endswith("::_SearchResults.csv"):  # of PEER: spectra
+            return NotARecord("the list of a search")
+        try:
+            return read(one)
+        except (OSError, ValueError) as error:
+            return error
+
+    found = [(one, answer(one)) for one in files]
+    records = [one for one, answered in found if isinstance(answered, list)]
+    if len(records) in (0, len(found)):
+        return found
+    known = any(_is_of_an_agency(one.content()) for one in records)
+
+    def marked(one: File, answered: Answer) -> Answer:
+        if isinstance(answered, list) or not _is_no_record(one, known):
+            return answered
+        return NotARecord(str(answered))
+
+    return [(one, marked(one, answered)) for one, answered in found]
+
+
+# In the headings of PEER's and ESM's files.
+_NO_ACCELERATION = re.compile(
+    rb"(VELOCITY|DISPLACEMENT) TIME (SERIES|HISTORY)|DATA_TYPE: *(VELOCITY|DISPLACEMENT)"
+)
+
+
+def _is_no_record(file: File, beside_known: bool) -> bool:
+    """Whether a file that cannot be read is none of acceleration, or of no known format beside
+    files that are."""
+    try:
+        content = file.content()
+    except ValueError:
+        return False
+    if not _is_of_an_agency(content):
+        return beside_known
+    return bool(_NO_ACCELERATION.search(content[:4096].upper()))
 
 
 def _text(component: str | SupportsIndex) -> str:
@@ -474,71 +584,6 @@ def _shown(file: _File) -> str:
         raise TypeError(f"read_record: file must be a string or a path, got {file!r}") from None
 
 
-# ---- ObsPy
-
-
-# One thread at a time: two that leave `catch_warnings` in the order in which they entered it leave
-# all warnings silenced.
-_OBSPY = threading.Lock()
-
-
-def _by_obspy(content: bytes) -> Any:
-    """The ObsPy stream in a file; None if ObsPy is not installed or cannot read the file."""
-    import importlib
-    import io
-    import warnings
-
-    with _OBSPY, warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        try:
-            return importlib.import_module("obspy").read(io.BytesIO(content))
-        except Exception:  # from any of its readers
-            return None
-
-
-def _of_stream(
-    stream: Any, shown: str, units: str | None, wanted: str | None, only_one: bool
-) -> list[Component]:
-    who = f"read_record: {shown}"
-    names = [trace.stats.channel or trace.id for trace in stream]
-    places = list(range(len(names)))
-    if wanted is not None:
-        places = _chosen(names, wanted)
-    if len(places) != 1 and (only_one or wanted is not None):
-        known = ", ".join(f"{i + 1} {name}" for i, name in enumerate(names))
-        raise ValueError(
-            f"{who}: select one component by name or number, available: {known};"
-            f" got {wanted or ''!r}"
-        )
-    if units is None:
-        raise ValueError(
-            f"{who}: ObsPy reads this file and does not state its units: pass units, such as"
-            ' "g" or "m/s^2"'
-        )
-    try:
-        return [_of_trace(stream[i], units) for i in places]
-    except ValueError as error:
-        raise ValueError(f"{who}: {error}") from None
-
-
-def _of_traces(stream: Any, units: str) -> list[Component]:
-    """The components of an ObsPy stream."""
-    return [_of_trace(trace, units) for trace in stream.traces]
-
-
-def _station_of_stream(stream: Any, units: str, name: str | None) -> GroundMotion:
-    """The ground motion of a stream; see `GroundMotion.from_obspy`."""
-    if len(stream.traces) == 1:
-        return GroundMotion.from_obspy(stream.traces[0], units=units, name=name)
-    try:
-        parts = _of_traces(stream, units)
-        motion = _core._station_motion(parts, [None] * len(parts), "", False)
-    except ValueError as error:
-        reason = str(error).removeprefix("read_station: ")
-        raise ValueError(f"GroundMotion.from_obspy: {reason}") from None
-    return motion if name is None else changed(motion, name=name)
-
-
 def changed(motion: GroundMotion, **about: Any) -> GroundMotion:
     """A motion with another `name` or `orientation`."""
     times: dict[str, Any] = {"times": motion.time} if motion.dt is None else {"dt": motion.dt}
@@ -546,23 +591,3 @@ def changed(motion: GroundMotion, **about: Any) -> GroundMotion:
     return _core._ground_motion(
         motion.acceleration, **times, **({name: getattr(motion, name) for name in kept} | about)
     )
-
-
-def _orientation_of_channel(code: str) -> str:
-    """The orientation that a channel code states, of SEED (HNZ) or of the Japanese networks (UD1);
-    empty if it states none."""
-    if pair := re.fullmatch("(NS|EW|UD)[12]?", code):
-        return {"NS": "N", "EW": "E", "UD": "up"}[pair[1]]
-    return {"N": "N", "E": "E", "Z": "up"}.get(code[-1:], "") if len(code) == 3 else ""
-
-
-def _of_trace(trace: Any, units: str) -> Component:
-    code = trace.stats.channel
-    motion = _core._ground_motion(
-        trace.data,
-        trace.stats.delta,
-        units=units,
-        name=trace.id,
-        orientation=_orientation_of_channel(code),
-    )
-    return Component(motion, code, str(trace.stats.starttime), "")

@@ -19,6 +19,7 @@ _ENDING = re.compile(
     r"|(.+?)[-_. ](N|E|S|W|NS|EW|UD|UP|DN|DWN|V|VER|VERT|Z|H1|H2)",
     re.IGNORECASE,
 )
+_NUMBERED = re.compile(r"[A-Z][HLGNM]([12])(?:\d\d)?")
 _LONELY = "no other component of its station"
 # Two perpendicular horizontal components without an azimuth, and the angles that combine them.
 _UNNAMED = {"H1": "0", "H2": "90"}
@@ -124,13 +125,20 @@ def _station(group: Sequence[Part], axis: str, common_length: bool) -> Station |
     except ValueError as error:
         return str(error).removeprefix("read_station: ")
     if any(unnamed):
-        motion = _core._with_orientation(motion, "H1" if motion.orientation == "0" else "H2")
+        along = "H1" if motion.orientation == "0" else "H2"
+        name = motion.name.removesuffix(f", {motion.orientation}")
+        motion = changed(motion, name=f"{name}, {along}", orientation=along)
     return Station(motion, list(group))
 
 
 def _unnamed(part: Part) -> str:
-    """H1 or H2 for a horizontal component without an azimuth, otherwise nothing."""
+    """H1 or H2 for a horizontal component without an azimuth, otherwise nothing.
+
+    SEED numbers such channels 1 and 2: BH1, HN2, also with their location, BH100.
+    """
     name = part.component.name.upper()
+    if channel := _NUMBERED.fullmatch(name):
+        name = f"H{channel[1]}"
     return name if name in _UNNAMED and not part.component.motion.orientation else ""
 
 

@@ -20,7 +20,7 @@ from .._core import (
     identity,
     response_spectrum,
 )
-from .._hdf5 import Saved, as_column, read, read_columns, write, write_columns
+from .._hdf5 import Saved, as_column, read, read_columns, write, write_columns, write_joined
 from .._numbers import reals
 from .._tabular import Tabular
 from ..runs.progress import Progress
@@ -49,7 +49,8 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
     Attributes
     ----------
     left_out : tuple of LeftOut
-        The files that `read` left out under ``on_error="skip"``, and vertical components.
+        The files that `read` left out under ``on_error="skip"``, what archives hold beside their
+        records, and vertical components.
     alone : tuple of LeftOut
         The components that fitted no station under ``stations=True``, with the reasons; these
         motions are in the suite, with one component.
@@ -529,6 +530,7 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
         dt: float | str | None = None,
         orientation: float | str | None = None,
         gaps: bool = False,
+        detrend: Literal["mean", "line"] | None = None,
         stations: bool = False,
         along: str | float | None = None,
         common_length: bool = False,
@@ -544,7 +546,8 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
         files : path-like, str or iterable of these
             A folder, including subfolders but not hidden files; a pattern, such as
             ``"records/**/*.AT2"``, where ``**`` matches any folders; a file; or a list of these. A
-            zip or tar archive of several files represents all of them.
+            zip or tar archive of several files represents all records in it; velocities, lists and
+            texts beside them are left out, with a warning, and listed in `left_out`.
         units : str, optional
             Unit of acceleration of the files that state none, as for `read_record`; or the name of
             a column of `metadata` with a unit for each record.
@@ -558,8 +561,8 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
             makes each horizontal component a motion of the suite, ``"vertical"`` each vertical one.
             A component that is known to point up or down is otherwise left out, and listed in
             `left_out`, unless its name or number is given: sliders move horizontally.
-        gaps : bool, optional
-            As for `read_record`; it applies to all files.
+        gaps, detrend
+            As for `read_record`; they apply to all files.
         stations : bool, optional
             Group the components of each station into one GroundMotion with `transverse` and
             `vertical`, as `read_station` does. Components belong together if they are in the same
@@ -613,8 +616,8 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
         Warns
         -----
         RuntimeWarning
-            Files or vertical components were left out; components fitted no station; a column was
-            renamed.
+            Files, vertical components or what is no record were left out; components fitted no
+            station; a column was renamed.
         PlausibilityWarning
             Equal records, and the warnings of `read_record`.
 
@@ -630,6 +633,7 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
             dt=dt,
             orientation=orientation,
             gaps=gaps,
+            detrend=detrend,
             stations=stations,
             along=along,
             common_length=common_length,
@@ -642,17 +646,16 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
     def _write(self, h5: Any) -> None:
         sizes = [len(m) for m in self._motions]
         write(h5, "first", np.concatenate([[0], np.cumsum(sizes)]))
-        write(h5, "acceleration", np.concatenate([m.acceleration for m in self._motions]))
+        write_joined(h5, "acceleration", [m.acceleration for m in self._motions])
         write(h5, "dt", [math.nan if m.dt is None else m.dt for m in self._motions])
-        uneven = [m.time for m in self._motions if m.dt is None]
-        write(h5, "time", np.concatenate([[], *uneven]))
+        write_joined(h5, "time", [m.time for m in self._motions if m.dt is None])
         write(h5, "held", [m.interpolation == "constant" for m in self._motions])
         write(h5, "name", np.array(self.names, object))
         write(h5, "orientation", np.array([m.orientation for m in self], object))
         for which in _OTHERS:
             others = [getattr(m, which) for m in self]
             write(h5, f"has_{which}", [one is not None for one in others])
-            write(h5, which, np.concatenate([[], *(one for one in others if one is not None)]))
+            write_joined(h5, which, [one for one in others if one is not None])
         write_columns(h5, "metadata", self._metadata)
 
     @classmethod

@@ -48,7 +48,7 @@ class AmbraseysMenu1988(Regression):
         Raises
         ------
         ValueError
-            An argument that is not positive and finite.
+            An argument that is not positive and finite; a measure of the motion may be 0.
         """
         return self._predict({"ky": ky, "pga": pga})
 

@@ -19,7 +19,7 @@ from .._core import (
 from .._numbers import reals
 from ..motions.suite import Suite
 
-__all__ = ["MEASURES", "UNITS", "checked", "measured", "spectral"]
+__all__ = ["MEASURES", "OF_MOTION", "UNITS", "checked", "measured", "spectral"]
 
 UNITS = {
     **dict.fromkeys(("ky", "pga", "Sa"), "g"),
@@ -36,30 +36,40 @@ MEASURES: dict[str, Callable[[Any], Any]] = {
     "Tm": lambda measures: measures.mean_period,
 }
 
+# A motion for which one of these is 0 moves nothing.
+OF_MOTION = frozenset(("pga", "pgv", "Ia", "Sa"))
+
 # Values beyond which another unit is more probable: name, whether it is implausible, which unit.
 _IMPLAUSIBLE: tuple[tuple[str, Callable[[Any], Any], str], ...] = (
     *((name, lambda x: x > 6, "m/s^2") for name in ("ky", "pga", "Sa")),
-    ("pgv", lambda x: x < 1, "m/s"),
+    ("pgv", lambda x: (x > 0) & (x < 1), "m/s"),
     ("Ia", lambda x: x > 100, "cm/s"),
 )
 
 
 def checked(who: str, given: dict[str, ArrayLike], stacklevel: int) -> dict[str, NDArray[Any]]:
-    """The arguments as arrays; each positive and finite, Ts also 0. Warns of other units."""
+    """The arguments as arrays; each positive and finite, Ts and measures of the motion also 0.
+
+    Warns of other units.
+    """
     arrays = {}
     for name, value in given.items():
         array = reals(value, f"{who}: {name}")
-        wrong = ~np.isfinite(array) | ((array < 0) if name == "Ts" else (array <= 0))
+        or_zero = name == "Ts" or name in OF_MOTION
+        wrong = ~np.isfinite(array) | ((array < 0) if or_zero else (array <= 0))
         if wrong.any():
-            rule = "at least 0" if name == "Ts" else "positive"
+            rule = "at least 0" if or_zero else "positive"
             unit = f" {UNITS[name]}" if name in UNITS else ""
+            index = [int(i) for i in np.argwhere(wrong)[0]]
+            where = f" at index {index[0] if len(index) == 1 else tuple(index)}" if index else ""
             reason = (
                 ": a slope that yields at 0 or less fails without an earthquake"
                 if name == "ky" and np.isfinite(array[wrong].flat[0])
                 else ""
             )
             raise ValueError(
-                f"{who}: {name} must be {rule} and finite, got {array[wrong].flat[0]}{unit}{reason}"
+                f"{who}: {name} must be {rule} and finite, got"
+                f" {array[wrong].flat[0]}{unit}{where}{reason}"
             )
         arrays[name] = array
     for name, implausible, unit in _IMPLAUSIBLE:

@@ -73,7 +73,7 @@ class BrayTravasarou2007(Regression):
         Raises
         ------
         ValueError
-            An argument that is not positive and finite; Ts may be 0.
+            An argument that is not positive and finite; Ts or a measure of the motion may be 0.
         """
         return self._predict({"ky": ky, "Sa": Sa, "Ts": Ts, "M": M})
 
@@ -202,7 +202,7 @@ class BrayMacedo2019(Regression):
         Raises
         ------
         ValueError
-            An argument that is not positive and finite; Ts may be 0.
+            An argument that is not positive and finite; Ts or a measure of the motion may be 0.
 
         Warns
         -----

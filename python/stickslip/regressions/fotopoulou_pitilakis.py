@@ -90,7 +90,7 @@ class FotopoulouPitilakis2015(Regression):
         TypeError
             A combination of arguments that no form takes.
         ValueError
-            An argument that is not positive and finite.
+            An argument that is not positive and finite; a measure of the motion may be 0.
 
         Warns
         -----

@@ -74,7 +74,7 @@ class Jibson2007(Regression):
         TypeError
             A combination of arguments that no equation takes.
         ValueError
-            An argument that is not positive and finite.
+            An argument that is not positive and finite; a measure of the motion may be 0.
 
         Warns
         -----
@@ -135,7 +135,7 @@ class JibsonEtAl2000(Regression):
         Raises
         ------
         ValueError
-            An argument that is not positive and finite.
+            An argument that is not positive and finite; a measure of the motion may be 0.
         """
         return self._predict({"ky": ky, "Ia": Ia})
 

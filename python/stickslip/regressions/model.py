@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .._core import GroundMotion
 from ..motions.suite import Suite
-from .arguments import MEASURES, checked, measured, spectral
+from .arguments import MEASURES, OF_MOTION, checked, measured, spectral
 from .prediction import Prediction
 
 __all__ = ["CM", "LN10", "Form", "LnDisplacement", "RangeWarning", "Regression", "ratio"]
@@ -21,6 +21,7 @@ __all__ = ["CM", "LN10", "Form", "LnDisplacement", "RangeWarning", "Regression",
 LN10 = math.log(10)
 CM = math.log(0.01)  # ln of a centimeter in meters
 
+_NEXT_TO_NOTHING = 1e-9  # of which the logarithm is finite; in place of a measure of 0
 _TAKEN = (*MEASURES, "Sa")  # from a record
 
 
@@ -47,7 +48,8 @@ class Regression(ABC):
     """A model that predicts the displacement of a slope from measures of the ground motion.
 
     The subclasses are listed in `stickslip.regressions`. Their method `predict` takes numbers or
-    arrays; `of` takes the measures from a record.
+    arrays; `of` takes the measures from a record. Where `pga`, `pgv`, `Ia` or `Sa` is 0, as in a
+    cell of a map without shaking, nothing moves: the median is 0 and `p_zero` is 1.
     """
 
     forms: ClassVar[tuple[Form, ...]]
@@ -167,9 +169,13 @@ class Regression(ABC):
                     stacklevel=stacklevel - 1,
                 )
         shape = np.broadcast_shapes(*(array.shape for array in a.values()))
+        still = np.zeros(shape, bool)
+        for key in OF_MOTION & a.keys():
+            still |= a[key] == 0
+            a[key] = np.where(a[key] == 0, _NEXT_TO_NOTHING, a[key])
         with np.errstate(divide="ignore"):  # ln 0 where nothing slides
             mean, sigma, p_zero = self._ln_displacement(form, a)
-        p_zero = np.broadcast_to(p_zero, shape)
+        p_zero = np.where(still, 1.0, p_zero)
         median = np.where(p_zero < 1, np.exp(mean), 0.0)
         if sigma is not None:
             sigma = np.broadcast_to(sigma, shape)

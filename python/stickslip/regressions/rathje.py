@@ -91,7 +91,7 @@ class SaygiliRathje2008(Regression):
         Raises
         ------
         ValueError
-            An argument that is not positive and finite.
+            An argument that is not positive and finite; a measure of the motion may be 0.
 
         Warns
         -----
@@ -156,7 +156,7 @@ class RathjeSaygili2009(Regression):
         Raises
         ------
         ValueError
-            An argument that is not positive and finite.
+            An argument that is not positive and finite; a measure of the motion may be 0.
         """
         return self._predict({"ky": ky, "pga": pga, "M": M})
 
@@ -231,7 +231,7 @@ class RathjeAntonakos2011(Regression):
         TypeError
             Neither or both of M and pgv.
         ValueError
-            An argument that is not positive and finite; Ts may be 0.
+            An argument that is not positive and finite; Ts or a measure of the motion may be 0.
 
         Warns
         -----

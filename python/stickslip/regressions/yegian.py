@@ -58,7 +58,7 @@ class YegianEtAl1991(Regression):
         Raises
         ------
         ValueError
-            An argument that is not positive and finite.
+            An argument that is not positive and finite; a measure of the motion may be 0.
         """
         return self._predict({"ky": ky, "pga": pga, "Neq": Neq, "T": T})
 
