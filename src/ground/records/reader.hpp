@@ -1,6 +1,7 @@
 // Reads a record file line by line.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -33,6 +34,7 @@ class Reader {
   /// The next `count` numbers, on lines of their own.
   std::vector<double> numbers(std::size_t count, const std::string& what, std::size_t width = 0) {
     std::vector<double> values;
+    values.reserve(std::min(count, (lines_.size() - at_) * 16));  // the header may state any number
     const std::string stated = std::to_string(count) + " " + what + " its header states";
     for (; values.size() < count; ++at_) {
       if (at_ == lines_.size())

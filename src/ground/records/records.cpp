@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <optional>
 #include <stdexcept>
@@ -29,11 +30,19 @@ namespace {
 namespace fs = std::filesystem;
 using namespace records;
 
+/// The number of bytes before the first one that is not ASCII.
+std::size_t ascii_length(std::string_view text) {
+  std::size_t at = 0;
+  for (std::uint64_t eight = 0; at + sizeof eight <= text.size(); at += sizeof eight) {
+    std::memcpy(&eight, text.data() + at, sizeof eight);
+    if ((eight & 0x8080808080808080U) != 0) break;
+  }
+  while (at < text.size() && static_cast<unsigned char>(text[at]) < 0x80) ++at;
+  return at;
+}
+
 bool is_utf8(std::string_view text) {
-  const auto is_long = [](char c) { return static_cast<unsigned char>(c) >= 0x80; };
-  for (auto next = std::ranges::find_if(text, is_long); next != text.end();
-       next = std::ranges::find_if(text, is_long)) {
-    text.remove_prefix(static_cast<std::size_t>(next - text.begin()));
+  for (text.remove_prefix(ascii_length(text)); !text.empty(); text.remove_prefix(ascii_length(text))) {
     const std::size_t length = sequence(text);
     if (length == 0) return false;
     text.remove_prefix(length);
@@ -112,7 +121,8 @@ std::string decoded(std::string text) {
     throw std::invalid_argument("plain text is needed, got a NUL byte at offset " + std::to_string(at) +
                                 " (a binary file, or UTF-16 without its byte-order mark)");
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-  return is_utf8(text) ? text : latin1_to_utf8(text);
+  if (!is_utf8(text)) text = latin1_to_utf8(text);
+  return text;
 }
 
 /// The lines of a text, whose ends are LF, CRLF, or CR alone; without DOS end marks at their ends.
