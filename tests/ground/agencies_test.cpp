@@ -1,5 +1,6 @@
 // Formats of the agencies of Turkiye, Taiwan, Mexico and China, of SIGMA and of SCEC.
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <initializer_list>
@@ -9,6 +10,7 @@
 
 #include "ground/agency_files.hpp"
 #include "ground/real_records.hpp"
+#include "stickslip/ground/processing.hpp"
 #include "stickslip/ground/records.hpp"
 #include "stickslip/units.hpp"
 #include "support/catch.hpp"
@@ -260,6 +262,89 @@ TEST_CASE("a damaged file of SCEC's platform, velocity and displacement are refu
   refuses(replaced(bbp(), "\t6\n", "\tnan\n"), {"line 15", "finite numbers", "nan"});
 }
 
+TEST_CASE("CSMIP states rates and full integers since 1990", "[records]") {
+  const std::string two = csmip_since_1990() + csmip_since_1990("Up");
+  const std::vector<RecordComponent> found = all(two);
+  REQUIRE(found.size() == 2);
+  CHECK(names(two) == Names{{"360", "360"}, {"Up", "Up"}});
+  CHECK(found[0].motion.samples() == 12000);
+  CHECK(found[0].motion.dt() == 0.005);
+  CHECK(found[0].motion.peak_acceleration() == Approx(0.079181 * g).epsilon(1e-14));
+  refuses(replaced(two, "200 pts/sec", "zero pts/sec"), {"line 28", "equally spaced"});
+  refuses(replaced(two, "200 pts/sec", "200 pts/min"), {"line 28", "equally spaced"});
+}
+
+TEST_CASE("volume I of USC and Caltech holds pairs of seconds and tenths of g", "[records]") {
+  const RecordComponent one = all(usc_volume_1())[0];
+  CHECK(one.motion.samples() == 200);
+  CHECK(one.motion.dt() == 0.004);
+  CHECK(one.motion.peak_acceleration() == Approx(0.4064 * g).epsilon(1e-14));
+  CHECK(one.units == "g");
+  CHECK(one.motion.orientation() == "N08W");
+  CHECK(one.motion.name() == "IBB123, 1 MADE-UP RD., MADE-UP CITY, CA, N08W");
+  refuses(replaced(usc_volume_1(), "POINTS =    200", "POINTS =    201"),
+          {"line 11", "201 points", "integer 28 is 200"});
+  refuses(replaced(usc_volume_1(), "UNITS ARE SEC AND G/10", "UNITS"), {"no units"});
+  refuses(replaced(usc_volume_1(), "G/10", "STONES/10"), {"unknown unit", "STONES/10"});
+}
+
+TEST_CASE("volume II of USC and Caltech has its unit above the samples or at the peak", "[records]") {
+  for (const char* units : {"  IN UNITS CM/SEC/SEC", ""}) {
+    const std::vector<RecordComponent> found = all(usc_volume_2(units));
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].motion.samples() == 16);
+    CHECK(found[0].motion.dt() == 0.02);
+    CHECK(found[0].motion.peak_acceleration() == Approx(2.42395).epsilon(1e-14));
+    CHECK(found[0].motion.orientation() == "N08W");
+  }
+  // What the text states of the samples must be true of them.
+  refuses(usc_volume_2("  IN UNITS G"), {"line 18", "peak of -242.3945 CMS/SEC/SEC", "242.395 G"});
+  refuses(replaced(usc_volume_2(), "OF    .020  SEC", "OF    .010  SEC"), {"line 17", "0.01 s", "0.02 s"});
+}
+
+TEST_CASE("a file of Iran holds components at even steps in tenths of g", "[records]") {
+  const std::string three = bhrc() + bhrc("V2") + bhrc("T3");
+  CHECK(names(three) == Names{{"L1", "50"}, {"V2", "V"}, {"T3", "140"}});
+  const GroundMotion motion = all(three)[0].motion;
+  CHECK(motion.dt() == 0.005);
+  CHECK(motion.samples() == 20);
+  CHECK(motion.acceleration()[7] == Approx(-0.0244355 * g).epsilon(1e-14));
+  CHECK(motion.name() == "2012/08/11 12:23:16, Made-up, L1");
+  refuses(replaced(three, "POINTS =   20", "POINTS =   19"), {"line 11", "19 points", "integer 28 is 20"});
+  refuses(replaced(three, "  .200000E+03", "  .100000E+03"), {"line 11", "sampling rate of 100 1/s"});
+  refuses(replaced(three, "G/10", "G"), {"line 1", "UNITS ARE SECONDS AND G/10"});
+}
+
+TEST_CASE("of three series of the USGS the acceleration is read", "[records]") {
+  const std::vector<RecordComponent> found = all(usgs());
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].motion.samples() == 13);
+  CHECK(found[0].motion.dt() == 0.005);
+  CHECK(found[0].motion.peak_acceleration() == Approx(5.1403).epsilon(1e-14));
+  CHECK(found[0].motion.orientation() == "090");
+  refuses(replaced(usgs(), "TYPE=AC", "TYPE=VL"), {"no series", "DATA TYPE=AC"});
+  refuses(replaced(usgs(), "POINTS=    13", "POINTS=    14"), {"line 10", "14 of the 14"});
+  refuses(replaced(usgs(), "SAMPLES/SEC=200", "SAMPLES/SEC=x"), {"line 6", "expected a number"});
+}
+
+TEST_CASE("velocities of a real V2 file are the integral of what is read", "[records][real]") {
+  struct Stated {
+    const char* file;
+    double peak, initial;  // [cm/s]
+  };
+  for (const auto& [name, stated, initial] :
+       {Stated{"csmip/CE58667.V2", 2.890, -0.001}, Stated{"csmip/ce36456p_CE36456.V2", 28.253, -0.052},
+        Stated{"csmip/chan001.v2", 0.205, 0}}) {
+    const auto file = test::real_record(std::string("agency/") + name);
+    if (!file) return;
+    CAPTURE(name);
+    const GroundMotion motion = read_record(*file, {.component = "1"});
+    double largest = 0;
+    for (const double v : ground_history(motion).velocity) largest = std::max(largest, std::abs(100 * v + initial));
+    CHECK(largest == Approx(stated).epsilon(0.01));  // the agency corrected the velocity, too
+  }
+}
+
 TEST_CASE("real files of agencies have the peaks that they state", "[records][real]") {
   struct Stated {
     const char *file, *component;
@@ -283,6 +368,20 @@ TEST_CASE("real files of agencies have the peaks that they state", "[records][re
            Stated{"smtk/16882_H1.cor.acc", "NS", 9400, 0.005, 1, 7.7132247e-3, 5e-11},
            Stated{"smtk/16882_H2.cor.acc", "WE", 9400, 0.005, 1, 9.4270337e-3, 5e-11},
            Stated{"smtk/16882_V.cor.acc", "UP", 9400, 0.005, 1, 6.1634634e-3, 5e-11},
+           Stated{"csmip/CE58667.V2", "H1", 7500, 0.01, 0.01, 27.114, 5e-4},
+           Stated{"csmip/ce36456p_CE36456.V2", "90", 3251, 0.02, 0.01, 267.957, 5e-4},
+           Stated{"csmip/chan001.v2", "Up", 13000, 0.005, 0.01, 17.433, 5e-4},
+           Stated{"csmip/CE89146.V1", "360", 13200, 0.005, g, 0.079, 5e-4},
+           Stated{"usc/017m30bt.s0a", "N08W", 1887, 0.02, 0.01, 242.3945, 6e-4},
+           Stated{"usc/274o42pv.s0a", "S58W", 573, 0.02, 0.01, 6.869, 5e-4},
+           Stated{"chile/altohospicio0911131.v1", "EW", 3500, 0.01, g, 0.051, 5e-4},
+           Stated{"chile/vinacentro1002271parte2.v1", "EW", 3500, 0.01, g, 0.036, 1e-3},
+           Stated{"smc/0165b_a.smc", "up", 6014, 0.005, 0.01, 274.4508, 1e-3},
+           Stated{"kiknet/AICH040010061330.EW2", "5", 28600, 0.005, 0.01, 5.020857, 5e-4},
+           Stated{"cosmos/Cosmos12TimeSeriesTest.v1", "1", 7000, 0.01, 0.01, 161.962, 5e-3},
+           Stated{"peer/RSN10590_ComalTX11-10-20_IU.CCM.BHZ.00.AT2", "BHZ00", 15306, 0.05, g, 1.85234e-6, 5e-12},
+           Stated{"iran/5526-1.V1", "L1", 9472, 0.005, g, 0.0059154, 5e-8},
+           Stated{"smc/usaca40.044", "090", 5983, 0.005, 0.01, 514.03, 5e-3},
        }) {
     const auto file = test::real_record(std::string("agency/") + name);
     if (!file) return;

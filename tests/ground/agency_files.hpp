@@ -145,4 +145,103 @@ inline std::string bbp(const std::string& quantity = "acceleration (cm/s^2)") {
          "0.000000e+00\t1.5\t-2.5\t3e-1\n1.250000e-02\t-98.0665\t0\t0\n2.500000e-02\t4\t5\t6\n3.750000e-02\t7\t8\t9\n";
 }
 
+/// Integers in columns of five characters and reals in columns of ten, of CSMIP and its ancestors; integer 28 is a count.
+inline std::string fixed_header(int count, int reals) {
+  std::string text;
+  for (int i = 1; i <= 100; ++i)
+    text += print("%5.0f", i == 28   ? count
+                           : i == 27 ? 360
+                           : i == 64 ? 13200
+                                     : 0) +
+            (i % 16 == 0 || i == 100 ? "\n" : "");
+  return text + csmip_numbers(reals, 8, 10, 3);
+}
+
+/// CSMIP since 1990: a sampling rate, full integers that run together, several channels.
+inline std::string csmip_since_1990(const std::string& orientation = "360 Deg", int count = 12000) {
+  std::string text =
+      "Uncorrected Accelerogram Data             Processed: 02/13/12, CGS  146be002\n"
+      "Record of Mon Feb 13, 2012 13:06:45.0 PST             (Avol1 v9.2,12/11 CSMIP)\nPreliminary\n"
+      "89999-L2500-12044.02                 Start time:  2/13/12, 21:06:45.0 UTC (GPS)\nStation No. 89999\n"
+      "Made-up Creek                             CGS\nChan  1: " +
+      orientation + "\nLine 8\nLine 9\nLine 10\nNo. of Points =  " + std::to_string(count) +
+      "  Record Length = 60.000 sec   at 200 Samples/sec\n"
+      "Units of uncor data are sec and g .        Max  =   .079 g , at  30.590 sec.\nRMS\n" +
+      fixed_header(count, 50) + " " + std::to_string(count) +
+      " Accelerogram points at 200 pts/sec in units of g .      Format: (8f9.6)\n";
+  for (int i = 0; i < count; ++i)
+    text += print("%9.6f", i == 100 ? -.079181 : 1e-6 * (i % 50)) + (i % 8 == 7 ? "\n" : "");
+  return text + "/&  ----------  End of data for channel  1 ----------\n";
+}
+
+/// Volume I of USC and Caltech: pairs of seconds and tenths of g in columns of seven characters.
+inline std::string usc_volume_1() {
+  std::string text =
+      "FILE     0 OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I:\nMADE-UP EARTHQUAKE                     21\n"
+      "JAN 17, 2001 -1230 GMT\nIBB123  94.570.0 N                     18\nSTATION USC# 0099\n"
+      "1 MADE-UP RD., MADE-UP CITY, CA        44\nCOMP N08W\nMADE-UP EARTHQUAKE\nEPICENTER\nINSTR PERIOD\n"
+      "NO. OF POINTS =    200      DURATION =    .796 SEC\nUNITS ARE SEC AND G/10\nRMS\n" +
+      fixed_header(200, 50);
+  for (int i = 0; i < 200; ++i)
+    text += print("%7.3f", 0.004 * i) + print("%7.3f", i == 50 ? -4.064 : 0.01 * (i % 9)) + (i % 5 == 4 ? "\n" : "");
+  return text;
+}
+
+/// Volume II: acceleration, velocity and displacement, the unit above them or only at the peak.
+inline std::string usc_volume_2(const std::string& units = "  IN UNITS CM/SEC/SEC") {
+  std::string text =
+      "CORRECTED ACCELEROGRAM  IIBB127  94.610.0 COMP N08W   FILE   0  CORRESPONDING T\n"
+      "FILE     0 OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I:\nMADE-UP EARTHQUAKE\nJAN 17, 2001\n"
+      "IBB127  94.610.0 N                    18\nSTATION USC# 0061\nMADE-UP STATION, CA                  48\n"
+      "COMP N08W                             9\n";
+  for (int i = 9; i <= 16; ++i) text += "LINE " + std::to_string(i) + "\n";
+  text +=
+      "AT EQUALLY-SPACED INTERVALS OF    .020  SEC.\n"
+      "PEAK ACCELERATION =  -242.39450  CMS/SEC/SEC AT    4.580   SEC.\n";
+  for (int i = 19; i <= 25; ++i) text += "LINE " + std::to_string(i) + "\n";
+  text += fixed_header(1887, 100);
+  for (const char* kind : {"ACC", "VEL", "DIS"}) {
+    text += std::string("  16 POINTS OF ") + kind + " DATA EQUALLY SPACED AT   .020 SEC." + units + "\n";
+    for (int i = 0; i < 16; ++i) text += print("%10.3f", i == 5 ? -242.395 : i) + (i % 8 == 7 ? "\n" : "");
+  }
+  return text;
+}
+
+/// Volume 1 of BHRC: a component; the lines of its header are cut at 70 characters.
+inline std::string bhrc(const std::string& component = "L1", int count = 20) {
+  std::string text =
+      "* VOL1DS FILE:  9999/01\nInst Type = SSA-2\nOrigin Time : 2012/08/11   12:23:16\n\n" + component.substr(0, 1) +
+      "\n \nCOMP " + component +
+      "\nMade-up                   Station   37.734 N 47.801 E   Altitude 2026m   Azimuth L 50    T 140\n"
+      "Epicenter 38.520 N 46.860 E\nINSTR PERIOD =  .020 SEC\nNO. OF POINTS =   " +
+      std::to_string(count) + "      DURATION =   " + print("%.3f", 0.005 * count) +
+      "\nUNITS ARE SECONDS AND G/10\n \n";
+  std::string integers, reals;
+  for (int i = 1; i <= 100; ++i) {
+    if (i % 16 == 1) integers.clear();
+    integers += print("%5.0f", i == 28 ? count : 0);
+    if (i % 16 == 0 || i == 100) text += integers.substr(0, 70) + "\n";
+  }
+  for (int i = 1; i <= 50; ++i) {
+    if (i % 8 == 1) reals.clear();
+    reals += i == 9 ? "  .200000E+03" : "  .000000E+00";
+    if (i % 8 == 0 || i == 50) text += reals.substr(0, 70) + "\n";
+  }
+  for (int i = 0; i < count; ++i) text += i == 7 ? " -.244355E+00" : "  .921041E-02", text += i % 10 == 9 ? "\n" : "";
+  return text + "/&\n";
+}
+
+/// The three series of the USGS of 1987.
+inline std::string usgs() {
+  std::string text;
+  for (const char* type : {"AC", "VL", "DP"}) {
+    text += std::string(
+                " MADE-UP CITY, 1 MADE-UP AVE\n 090 DEGREES\n EARTHQUAKE OF OCTOBER 1, 1987\n BUTTERWORTH\n"
+                " YEAR=1987 JULIAN DAY=274\n SAMPLES/SEC=200 FILTER TYPE=BUTTERWORTH DATA TYPE=") +
+            type + "\n NO OF POINTS=    13, UNITS=CM/SEC**2, CM/SEC, AND CM\n";
+    for (int i = 0; i < 13; ++i) text += print("%8.2f", i == 4 ? -514.03 : i) + (i % 10 == 9 || i == 12 ? "\n" : "");
+  }
+  return text;
+}
+
 }  // namespace record_files

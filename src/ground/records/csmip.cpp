@@ -151,7 +151,7 @@ std::vector<Channel> read_csmip(const Lines& lines) {
       const bool rated = !has(line, "spaced at");  // points per second
       std::string_view step = trim(after(line, rated ? "points at" : "spaced at"));
       const std::optional<double> number = take_number(step);
-      if (!number || !(*number > 0) || (rated && !same(trim(step).substr(0, 3), "pts")))
+      if (!number || !(*number > 0) || (rated && !same(trim(step).substr(0, 7), "pts/sec")))
         refuse_line(reader.last(), "expected points of data equally spaced in seconds, got " + quote(line));
       const double dt = rated ? 1 / *number : *number;
       const std::vector<double> values = reader.numbers(samples, "samples", stated_width(line));
