@@ -31,7 +31,12 @@ double reduced(double azimuth) {
   return turn < 0 ? turn + 360 : turn + 0.0;  // no -0
 }
 
-bool is_orientation(std::string_view text) { return azimuth_of(text) || upward(text) != 0; }
+/// Whether a text in a file is an orientation. Numbers are azimuths up to a turn; one digit rather counts something.
+bool is_orientation(std::string_view text) {
+  if (const std::optional<double> number = detail::read_number(plain(text)))
+    return std::abs(*number) <= 360 && (plain(text).size() > 1 || !(std::abs(*number) > 0));
+  return azimuth_of(text) || upward(text) != 0;
+}
 
 bool points_alike(const std::string& a, const std::string& b) {
   return azimuth_of(a) == azimuth_of(b) && upward(a) == upward(b);
@@ -63,7 +68,9 @@ std::vector<std::string> words(std::string_view text) {
 }
 
 /// The direction of a SEED channel of a motion, such as HNE, or BHZ00 with its location: band, instrument, direction.
-std::string orientation_of_channel(std::string_view code) {
+std::string orientation_of_channel(std::string_view text) {
+  const std::string whole = plain(text);
+  std::string_view code = whole;
   if (code.size() == 5 && code[3] >= '0' && code[3] <= '9' && code[4] >= '0' && code[4] <= '9')
     code = code.substr(0, 3);
   if (code.size() == 3 && (code[2] == '1' || code[2] == '2'))  // NS1, UD2: of a pair of the Japanese networks
@@ -79,8 +86,9 @@ std::string orientation_of_channel(std::string_view code) {
 
 std::optional<double> azimuth_of(std::string_view orientation) {
   std::string text = plain(orientation);
-  for (const char* unit : {"DEGREES", "DEG", "\xC2\xB0"})
-    if (text.ends_with(unit)) text.resize(text.size() - std::string_view(unit).size());
+  for (const std::string_view unit : {"DEGREES", "DEG.", "DEG", "\xC2\xB0"})
+    if (const std::size_t at = text.find(unit); at != std::string::npos && at + unit.size() + 1 >= text.size())
+      text.erase(at, unit.size());  // at the end, or before its quadrant: N 45 DEG E
   if (is_one_of(text, {"N", "NORTH", "N-S", "N/S", "NS", "S-N", "SN", "NORTH-SOUTH"})) return 0;
   if (is_one_of(text, {"E", "EAST", "E-W", "E/W", "EW", "W-E", "WE", "EAST-WEST"})) return 90;
   if (is_one_of(text, {"S", "SOUTH"})) return 180;
@@ -110,7 +118,9 @@ std::string orientation_in(std::string_view text) {
   std::string found;
   bool several = false;
   const auto add = [&](const std::string& orientation) {
-    if (found.empty())
+    if (several)
+      return;
+    else if (found.empty())
       found = orientation;
     else
       several = several || !points_alike(found, orientation);
@@ -121,6 +131,8 @@ std::string orientation_in(std::string_view text) {
     const bool is_joined = at(1) == "-" || at(1) == "/";
     const std::string both = is_joined ? at(0) + "-" + at(2) : std::string();
     const bool is_number = detail::read_number(at(0)).has_value();
+    // N 45 states no quadrant, and no direction.
+    const bool of_number = at(0).size() == 1 && detail::read_number(at(1)).has_value();
     if (is_joined && is_orientation(both)) {
       add(both);
       i += 2;
@@ -129,6 +141,8 @@ std::string orientation_in(std::string_view text) {
       ++i;
     } else if (is_one_of(plain(at(0)), {"UP", "DOWN"}) && (at(1) == "-" || (i > 0 && parts[i - 1] == "-"))) {
       continue;  // made-up, cool-down
+    } else if (of_number && is_orientation(at(0))) {
+      several = true;
     } else if (!is_number && at(0) != "-" && is_orientation(at(0))) {
       add(at(0));
     } else if (const std::string of_channel = orientation_of_channel(at(0)); !of_channel.empty()) {

@@ -135,9 +135,9 @@ TEST_CASE("a damaged file of Taiwan is refused", "[records][errors]") {
   refuses(replaced(cwb(), "     0.040    -0.500     2.000     4.000\n", ""), {"line 25", "times disagree", "0.060"});
   refuses(replaced(cwb(), "(sec): 0.1", "(sec): 0.2"), {"ends after 5 of the 10 samples"});
   refuses(replaced(cwb(), "(sec): 0.1", "(sec): 0.06"), {"line 26", "more than the 3 samples"});
-  refuses(replaced(cwb(), "1.250~", "1.350~"), {"line 18", "a peak of 1.35", "1.25"});
-  refuses(replaced(cwb(), "~  -98.067", "~  -99.999"), {"line 19", "a peak of -99.999"});
-  CHECK(read(replaced(replaced(cwb(), "1.250~", "1.350~"), " DCoffset(corr)", ""), {.component = "U"}).samples() == 5);
+  refuses(replaced(cwb(), "1.250~", "2.350~"), {"line 18", "a peak of 2.35", "1.25"});
+  refuses(replaced(cwb(), " 1234.567~", "  123.457~"), {"line 19", "a peak of 123.457"});
+  CHECK(read(replaced(replaced(cwb(), "1.250~", "2.350~"), " DCoffset(corr)", ""), {.component = "U"}).samples() == 5);
   refuses(replaced(cwb(), "  gal. DC", "  count. DC"), {"count"});
   refuses(replaced(cwb(), "-0.500     2", "*****     2"), {"line 25", "finite numbers"});
 }
@@ -170,7 +170,7 @@ TEST_CASE("a damaged standard file of Mexico is refused", "[records][errors]") {
   refuses(replaced(asa(), "/0.004/0.004/0.004", "/0.004/0.004"), {"line 47", "3 channels", "got 2"});
   refuses(replaced(asa(), "INTERVALO DE", "INTERVALO"), {"no 'INTERVALO DE MUESTREO, C1-C6'"});
   refuses(replaced(asa(), "/V;+/", "/V;-/"), {"line 37", "directions of positive samples", "V;-"});
-  refuses(replaced(asa(), "/-1.45/98.07", "/-1.45/78.07"), {"line 74", "a peak of 78.07", "98.07"});
+  refuses(replaced(asa(), "/-1.45/98.07", "/-1.45/9.807"), {"line 74", "a peak of 9.807", "98.0"});
   refuses(replaced(asa(), "      N90E      N00E", "      N00E      N90E"), {"line 108", "directions"});
   refuses(replaced(asa(), "Gal (cm/s/s)", "cm/s"), {"cm/s"});
   refuses(replaced(asa(), ": Gal (cm/s/s)", ":"), {"no units of acceleration"});
@@ -199,7 +199,7 @@ TEST_CASE("a damaged file of China and velocity are refused", "[records][errors]
   refuses(csmnc("CORRECTED VELOCITY                UNIT: CM/SEC"), {"line 11", "expected acceleration", "VELOCITY"});
   refuses(csmnc("UNCORRECTED ACCELERATION          UNIT: COUNT"), {"COUNT"});
   refuses(csmnc("UNCORRECTED ACCELERATION"), {"no line", "UNIT: CM/SEC/SEC"});
-  refuses(csmnc("UNCORRECTED ACCELERATION          UNIT: CM/SEC/SEC", "-905.350"), {"line 13", "-905.35", "1005.35"});
+  refuses(csmnc("UNCORRECTED ACCELERATION          UNIT: CM/SEC/SEC", "-10.0535"), {"line 13", "-10.0535", "1005.35"});
   refuses(replaced(csmnc(), "POINTS:  10", "POINTS:  11"), {"ends after 10 of the 11 samples"});
   refuses(replaced(csmnc(), "POINTS:  10", "POINTS:  9"), {"line 18", "more than the 9 samples"});
   refuses(csmnc() + " 1.0\n", {"line 19", "more than the 10 samples"});
@@ -226,7 +226,7 @@ TEST_CASE("a damaged file of SIGMA and velocity are refused", "[records][errors]
   refuses(sigma("NS", 5), {"line 12", "more than the 5 samples"});
   refuses(replaced(sigma(), "Accelaration time series in m/s/s", "Velocity time series in m/s"),
           {"line 10", "acceleration time series", "Velocity"});
-  refuses(replaced(sigma(), "9.8066500E-01\nAcc", "9.6066500E-01\nAcc"), {"line 9", "0.960665", "0.980665"});
+  refuses(replaced(sigma(), "9.8066500E-01\nAcc", "9.8066500E-02\nAcc"), {"line 9", "0.0980665", "0.980665"});
   refuses(replaced(sigma(), ": 0.005", ": 0"), {"line 7", "time step"});
   refuses(replaced(sigma(), " in m/s/s", ""), {"no units of acceleration"});
   refuses(replaced(sigma(), "-6.4590450E-06", "           nan"), {"line 12", "number 6 of the 7"});
@@ -260,6 +260,26 @@ TEST_CASE("a damaged file of SCEC's platform, velocity and displacement are refu
   refuses(replaced(bbp(), "2.500000e-02", "0.000000e-02"), {"line 15", "evenly spaced times"});
   refuses(replaced(bbp(), "\t6\n", "\n"), {"line 15", "expected 4 numbers, got 3"});
   refuses(replaced(bbp(), "\t6\n", "\tnan\n"), {"line 15", "finite numbers", "nan"});
+}
+
+TEST_CASE("what a header states of its samples must be true of them", "[records][errors]") {
+  const std::string two = csmip_since_1990();
+  refuses(replaced(two, "in units of g", "in units of cm/s2"), {"line 12", "peak of 0.079 g"});
+  refuses(replaced(two, "200 pts/sec", "50 pts/sec"), {"line 11", "duration of 60 s", "240 s"});
+  refuses(replaced(usc_volume_2(), "  IN UNITS CM/SEC/SEC", "  IN UNITS G"), {"line 18", "242.3945 CMS/SEC/SEC"});
+  refuses(replaced(geonet(), "Acceleration:", "Acceleration:  peak  -110.2 mm/s/s at  0.18 sec"),
+          {"line 14", "peak of -110.2 mm/s/s"});
+  refuses(replaced(geonet(), "at 0.020 sec", "at 0.010 sec"), {"line 11", "0.01 s", "0.02 s"});
+  refuses(knet("N-S", 10, "20000(gal)/8000000"), {"line 15", "peak of 25 gal", "250 gal"});
+  const std::string cosmos = replaced(cosmos_channel("HNE", cosmos_data), "Processed:\n",
+                                      "Processed: today, Max =  1000.123 cm/sec2 at 0.02 sec\n");
+  CHECK(all(cosmos).size() == 1);
+  refuses(replaced(cosmos, "=cm/sec2(04)", "=mm/sec2(04)"), {"line 11", "peak of 1000.123 cm/sec2"});
+  refuses(replaced(cosmos, "approx    0 secs", "approx   70 secs"), {"duration of 70 s"});
+  // A last number that was cut off has no exponent, or a shorter one.
+  for (const char* end : {"E-0", ""})
+    refuses(peer("5 .01 NPTS, DT", std::string("  -.1E+00   .2E+00  .3E+00\n   .5E+00  .4E+00 .9459335") + end + "\n"),
+            {"line 6", "cut off"});
 }
 
 TEST_CASE("CSMIP states rates and full integers since 1990", "[records]") {

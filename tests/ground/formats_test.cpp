@@ -87,7 +87,7 @@ TEST_CASE("all components of a file come with name, orientation and start", "[re
   CHECK(read(other).orientation().empty());
   // Integer 54: an azimuth from 1, 400 up, 401 down; 0 and other values carry no information.
   for (const auto& [code, orientation] :
-       {std::pair{45, "45"}, {360, "0"}, {400, "up"}, {401, "down"}, {0, ""}, {402, ""}, {500, ""}, {-999, ""}})
+       {std::pair{45, "45"}, {360, "0"}, {400, "up"}, {401, "down"}, {0, ""}, {402, "vertical"}, {500, ""}, {-999, ""}})
     CHECK(read(with_integer(other, 54, code)).orientation() == orientation);
 }
 
@@ -129,7 +129,11 @@ TEST_CASE("an ESM file is read by the keys of its header", "[records]") {
   CHECK(read(dyna("HN2")).orientation().empty());
   CHECK(read(replaced(dyna(), "EVENT_NAME: Made-up", "EVENT_NAME: None")).name() == "MU-2001-0001, MU MAD, HNE");
   CHECK(parse_components(dyna(), "a")[0].start == "20010203_040512.000");
-  CHECK(read(replaced(dyna(), "UNITS: cm/s^2", "UNITS: g")).peak_acceleration() == Approx(98.0665 * g));
+  // The peak says in which unit the samples are.
+  refuses(replaced(dyna(), "UNITS: cm/s^2", "UNITS: mm/s^2"), {"line 17", "peak of -98.0665 cm/s^2"});
+  const std::string elsewhere = replaced(dyna(), "EVENT_NAME: Made-up\n", "\n\nEVENT_NAME: Made-up\n");
+  CHECK(read(elsewhere) == motion);
+  refuses(replaced(elsewhere, "NDATA: 6", "NDATA: six"), {"line 15", "'NDATA'"});
 }
 
 TEST_CASE("a damaged ESM file, velocity and spectra are refused", "[records][errors]") {

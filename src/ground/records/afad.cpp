@@ -4,6 +4,7 @@
 // Source: files of the Strong Ground Motion Database of Turkiye (kyhdata.deprem.gov.tr); gmprocess, nsmn. The unit is
 // that of RAW PGA VALUES. These values themselves are not compared: they are of the record before processing. Not used:
 // coordinates, depth, magnitude, altitude, recorder.
+#include "ground/records/checks.hpp"
 #include "ground/records/formats.hpp"
 #include "ground/records/keys.hpp"
 #include "ground/records/reader.hpp"

@@ -7,6 +7,7 @@
 // is accepted if duration, step and number of samples agree. A direction with the sign - is refused, as in cwb.cpp.
 // Not used: places, soil, instrument (channels, range, frequency, damping, threshold, memory), magnitudes, accuracy of
 // time, sample of the peak, quality, comments.
+#include "ground/records/checks.hpp"
 #include "ground/records/formats.hpp"
 #include "ground/records/keys.hpp"
 #include "ground/records/reader.hpp"
@@ -150,7 +151,6 @@ std::vector<Channel> read_asa(const Lines& lines) {
   rows.require_size(samples);
 
   const std::vector<std::string_view> peaks = entries(header, peak_key);
-  const bool is_gal = !units.empty() && acceleration_unit(units) == acceleration_unit("gal");
   for (std::size_t k = 0; k < channels.size(); ++k) {
     Channel& channel = channels[k];
     channel.title = joined({squeeze(header.text("FECHA DEL SISMO") + " " + header.text("HORA EPICENTRO")),
@@ -161,8 +161,8 @@ std::vector<Channel> read_asa(const Lines& lines) {
     channel.dt = dt;
     channel.acceleration = std::move(rows.columns[k]);
     channel.acceleration.resize(kept);
-    if (is_gal && peaks.size() == channels.size())
-      check_peak(largest(channel.acceleration), peaks[k], header.line(std::string(peak_key) + "C1-C6"));
+    if (peaks.size() == channels.size())
+      check_peak(channel, peaks[k], "gal", header.line(std::string(peak_key) + "C1-C6"));
   }
   return channels;
 }

@@ -3,6 +3,7 @@
 // Source: SCEC Broadband Platform, its files and converters. The columns are described by `# Column 2: N/S component
 // ground acceleration (cm/s^2) (+ is 000)` or `# Column 2: North-south acceleration (cm/s/s) (+ is northward)`. Files
 // with their labels in one line are tables. Not used: coordinates, distance, corner frequencies.
+#include "ground/records/checks.hpp"
 #include "ground/records/formats.hpp"
 #include "ground/records/keys.hpp"
 #include "ground/records/reader.hpp"

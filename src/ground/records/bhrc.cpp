@@ -43,9 +43,10 @@ double number_after(const Lines& text, std::size_t heading, std::string_view lab
 /// The azimuth of a component L or T: `Azimuth L 50    T 140`; V is up.
 std::string orientation_of(const Lines& text, const std::string& component) {
   const std::size_t line = line_with(text, "Azimuth");
-  if (component.empty()) return {};
+  const std::string unknown = "unknown";
+  if (component.empty()) return unknown;
   if (component[0] == 'V') return "V";
-  if (line == text.size() || (component[0] != 'L' && component[0] != 'T')) return {};
+  if (line == text.size() || (component[0] != 'L' && component[0] != 'T')) return unknown;
   std::string_view rest = trim(after(text[line], "Azimuth"));
   for (std::size_t i = 0; i + 1 < rest.size(); ++i) {
     if (rest[i] != component[0] || !is_blank(rest[i + 1]) || (i > 0 && !is_blank(rest[i - 1]))) continue;
@@ -53,7 +54,7 @@ std::string orientation_of(const Lines& text, const std::string& component) {
     const std::string_view whole = azimuth;
     if (take_number(azimuth)) return std::string(whole.substr(0, whole.size() - azimuth.size()));
   }
-  return {};
+  return unknown;
 }
 
 /// The component whose heading was read.

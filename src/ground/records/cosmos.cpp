@@ -1,4 +1,5 @@
 // COSMOS V1 and V2.
+#include "ground/records/checks.hpp"
 #include "ground/records/formats.hpp"
 #include "ground/records/reader.hpp"
 
@@ -51,11 +52,17 @@ std::vector<Channel> read_cosmos(const Lines& lines) {
 
     Channel channel;
     std::string event, station;
+    std::string_view largest;  // what follows "Max =" in the text
+    std::size_t largest_line = 0;
     std::string_view line = reader.line("integer header");
     for (; !has(line, "Integer-header"); line = reader.line("integer header")) {
       if (has(line, "Record of ")) event = squeeze(after(line, "Record of "));
       if (has(line, "Rcrd start time:")) channel.start = squeeze(before(after(line, "Rcrd start time:"), "("));
       if (has(line, "Code:")) station = squeeze(after(line, "Code:"));
+      if (has(line, "Processed:") && has(line, " Max =")) {
+        largest = trim(after(line, " Max ="));
+        largest_line = reader.last();
+      }
       if (has(line, "Sta Chan")) channel.name = squeeze(before(after(line, ":"), "("));
     }
     const std::size_t stage_line = reader.last() + 1;
@@ -84,11 +91,15 @@ std::vector<Channel> read_cosmos(const Lines& lines) {
         channel.name = squeeze(code.substr(0, code.find('.')));
         channel.orientation = orientation_in(channel.name);
       }
-    // Integer 54: an azimuth from 1, or a code for up or down. Some files hold 0 where it is unknown.
-    if (channel.orientation.empty() && !azimuth_of(channel.name) && integer.size() > 53) {
+    // Integer 54: an azimuth from 1, or a code for vertical components. Some files hold 0 where it is unknown. It is more
+    // precise than the letter of a channel's code; a direction in the text comes first.
+    const std::string by_text = channel.orientation.empty() ? orientation_in(channel.name) : std::string();
+    if (by_text.empty() && integer.size() > 53) {
       const double sensor = integer[53];
-      if (sensor >= 1 && sensor <= 360) channel.orientation = orientation_at(sensor);
+      const bool points_up = upward(channel.orientation) != 0;
+      if (sensor >= 1 && sensor <= 360 && !points_up) channel.orientation = orientation_at(sensor);
       if (sensor == 400 || sensor == 401) channel.orientation = sensor == 400 ? "up" : "down";
+      if (sensor == 402) channel.orientation = "vertical";
     }
     channel.title = joined({event, station, channel.name});
 
@@ -104,6 +115,11 @@ std::vector<Channel> read_cosmos(const Lines& lines) {
       if (!has(line, "accel")) continue;
       channel.units = stated_units(line);
       channel.acceleration = values;
+      const std::size_t size_line = reader.last();
+      std::string_view duration = trim(after(line, "approx"));
+      if (const std::optional<double> seconds = take_number(duration)) check_duration(channel, *seconds, size_line);
+      std::string_view peak = largest;
+      if (take_number(peak)) check_peak(channel, largest, first_word(peak), largest_line);
       components.push_back(channel);
     }
   }

@@ -5,6 +5,7 @@
 // Used: the type, event, station, channel or component, and what is stated with the data: count, spacing, unit, columns;
 // for pairs of time and acceleration integer 28 (their number) and the unit in the text. Checked against them: the number
 // of points, the spacing and the peak in the text. The other lines, integers and reals are not used.
+#include "ground/records/checks.hpp"
 #include "ground/records/formats.hpp"
 #include "ground/records/reader.hpp"
 #include "ground/records/times.hpp"
@@ -19,7 +20,6 @@
 #include <vector>
 
 #include "stickslip/error.hpp"
-#include "stickslip/ground/records.hpp"
 
 namespace stickslip::records {
 namespace {
@@ -47,13 +47,6 @@ std::size_t stated_width(std::string_view line) {
   return width;
 }
 
-std::string first_word(std::string_view text) {
-  text = trim(text);
-  text = text.substr(0, text.find_first_of(" \t,;()"));
-  while (text.ends_with('.')) text.remove_suffix(1);
-  return std::string(text);
-}
-
 /// The unit in `... in cm/sec2. (8f10.6)`, `IN UNITS CM/SEC/SEC`, `(UNITS: CM/SEC/SEC)`, `UNITS ARE SEC AND G/10`,
 /// `UNITS OF UNCOR ACCEL ARE SEC-G/10.`, `Units of uncor data are sec and g .`; or nothing.
 std::string unit_of(std::string_view line) {
@@ -78,20 +71,27 @@ void set_unit(Channel& channel, const std::string& unit) {
 std::string orientation_of(const Lines& text) {
   for (std::string_view line : text) {
     line = trim(line);
-    if (same(line.substr(0, 5), "comp ")) return first_word(line.substr(5));
+    // Numbers at the end of a card are its length.
+    if (same(line.substr(0, 5), "comp "))
+      return is_blank(line[std::min<std::size_t>(6, line.size() - 1)]) ? "" : first_word(line.substr(5));
     if (same(line.substr(0, 4), "chan")) {
       std::string_view rest = trim(after(line, ":"));
-      if (has(rest, "deg")) return squeeze(before(rest, "deg"));
+      if (has(rest, "deg")) {  // 90 Deg, N 45 DEG E
+        const std::string side = first_word(trim(after(rest, "deg")));
+        const bool quadrant = same(side, "e") || same(side, "w");
+        return squeeze(std::string(before(rest, "deg")) + (quadrant ? side : std::string()));
+      }
       return squeeze(before(rest.substr(0, rest.find("  ")), "("));
     }
   }
   return {};
 }
 
-/// A number and the word after it, in a line of the text such as `PEAK ACCELERATION = -242.39 CMS/SEC/SEC AT 4.580 SEC.`
+/// A number in the text and what follows it: `PEAK ACCELERATION = -242.39 CMS/SEC/SEC AT 4.580 SEC.`
 struct Statement {
   double value = 0;
-  std::string unit{};
+  std::string_view number{};  // as printed, and what follows
+  std::string unit{};         // the word after it
   std::size_t line = 0;
 };
 
@@ -100,21 +100,18 @@ std::optional<Statement> stated(const Lines& text, std::string_view label) {
     if (!has(text[i], label)) continue;
     std::string_view rest = trim(after(text[i], label));
     if (rest.starts_with('=')) rest = trim(rest.substr(1));
-    if (const std::optional<double> value = take_number(rest)) return Statement{*value, first_word(rest), i};
+    const std::string_view number = rest;
+    if (const std::optional<double> value = take_number(rest)) return Statement{*value, number, first_word(rest), i};
   }
   return std::nullopt;
 }
 
-/// Rejects samples whose peak is more than twice or less than half the stated one: one of the two is in another unit.
-void check_peak(const Channel& channel, const Statement& peak, std::size_t heading) {
-  double largest = 0;
-  for (const double n : channel.acceleration) largest = std::max(largest, std::abs(n));
-  const double read = largest * acceleration_unit(channel.units);
-  const double said = std::abs(peak.value) * acceleration_unit(peak.unit);
-  if (read > 2 * said + 1e-3 || 2 * read + 1e-3 < said)
-    refuse_line(heading + peak.line, "states a peak of " + detail::shortest(peak.value) + " " + peak.unit +
-                                         ", but that of the samples is " + detail::shortest(largest) + " " +
-                                         channel.units);
+/// Checks what the text of a channel states of its samples.
+void check(const Channel& channel, const Lines& text, std::size_t heading, bool corrected) {
+  if (const auto every = stated(text, "INTERVALS OF")) check_step(channel, every->value, heading + every->line);
+  if (const auto length = stated(text, "RECORD LENGTH")) check_duration(channel, length->value, heading + length->line);
+  if (const auto peak = stated(text, corrected ? "PEAK ACCELERATION" : " MAX "))
+    check_peak(channel, peak->number, peak->unit, heading + peak->line);
 }
 
 }  // namespace
@@ -158,13 +155,10 @@ std::vector<Channel> read_csmip(const Lines& lines) {
       if (!has(rest, "acc")) continue;
       channel.dt = dt;
       channel.acceleration = values;
-      const std::optional<Statement> peak = stated(text, "PEAK ACCELERATION"), every = stated(text, "INTERVALS OF");
       set_unit(channel, unit_of(line));
-      if (channel.units.empty() && peak) channel.units = peak->unit;
-      if (every && std::abs(every->value - dt) > 1e-6 * dt)
-        refuse_line(heading + every->line, "states a spacing of " + detail::shortest(every->value) +
-                                               " s, but above the samples it is " + detail::shortest(dt) + " s");
-      if (peak && !channel.units.empty()) check_peak(channel, *peak, heading);
+      if (const auto peak = stated(text, "PEAK ACCELERATION"); peak && channel.units.empty())
+        channel.units = peak->unit;
+      check(channel, text, heading, corrected);
       found = true;
     }
     if (!found && !corrected) {  // pairs of time and acceleration
@@ -181,6 +175,7 @@ std::vector<Channel> read_csmip(const Lines& lines) {
       for (const std::string_view line : text)
         if (channel.units.empty() && has(line, "units") && has(line, " are sec")) set_unit(channel, unit_of(line));
       if (samples > 1) set_times(channel, times, std::vector<double>(times.size(), 0.001));
+      check(channel, text, heading, corrected);
       found = true;
     }
     if (!found) throw std::invalid_argument("a channel of this file holds no acceleration");

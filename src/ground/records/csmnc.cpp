@@ -4,6 +4,7 @@
 // Source: files of the China Strong Motion Network Center, Institute of Engineering Mechanics; CSMNC2SAC. Uncorrected
 // and corrected acceleration are read; blocks of velocity and displacement behind it are left out. Not used:
 // coordinates, depth, magnitude, site, instrument, time of the peak, duration, time before the event.
+#include "ground/records/checks.hpp"
 #include "ground/records/formats.hpp"
 #include "ground/records/reader.hpp"
 #include "ground/records/rows.hpp"
@@ -28,8 +29,6 @@ std::string_view value(std::string_view line, std::string_view label) {
   return rest.starts_with(':') ? trim(rest.substr(1)) : rest;
 }
 
-std::string_view first_word(std::string_view text) { return text.substr(0, text.find_first_of(" \t")); }
-
 bool is_size(std::string_view line) { return has(line, count_label) && has(line, step_label); }
 
 }  // namespace
@@ -49,8 +48,8 @@ std::vector<Channel> read_csmnc(const Lines& lines) {
   while (!reader.done()) {
     if (samples > 0 && !is_text(reader.peek())) reader.require_end(samples);
     std::string_view peak, previous;
-    std::size_t peak_line = 0;
-    double dt = 0;
+    std::size_t peak_line = 0, duration_line = 0;
+    double dt = 0, duration = 0;
     for (bool sized = false; !sized || is_text(reader.peek());) {
       const std::string_view line = reader.line(sized ? "samples" : count_label);
       if (same(trim(line).substr(0, 9), "epicenter")) event = squeeze(previous);
@@ -62,8 +61,10 @@ std::vector<Channel> read_csmnc(const Lines& lines) {
         quantity_line = reader.last();
       }
       if (has(line, "PEAK VALUE")) {
-        peak = first_word(value(line, "PEAK VALUE"));
-        peak_line = reader.last();
+        peak = value(line, "PEAK VALUE");
+        peak_line = duration_line = reader.last();
+        std::string_view seconds = value(line, "DURATION");
+        duration = take_number(seconds).value_or(0);
       }
       if (is_size(line)) {
         std::string_view count = value(line, count_label), step = value(line, step_label);
@@ -83,7 +84,8 @@ std::vector<Channel> read_csmnc(const Lines& lines) {
     channel.acceleration = reader.numbers(samples, "samples");
     if (!has(quantity, "ACCELERATION") || has(quantity, "SPECTR")) continue;
     channel.units = squeeze(value(quantity, "UNIT"));
-    check_peak(largest(channel.acceleration), peak, peak_line);
+    check_peak(channel, peak, peak_line);
+    check_duration(channel, duration, duration_line);
     channels.push_back(std::move(channel));
   }
   if (channels.empty()) refuse_line(quantity_line, "expected acceleration, got " + quote(quantity));

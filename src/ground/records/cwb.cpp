@@ -3,6 +3,7 @@
 // Source: files of the Taiwan Strong Motion Instrumentation Program; gmprocess, cwb. A component is marked with the
 // sign of its direction: (+) is read, (-) is refused, because no description says whether it turns the samples or the
 // direction. Positive is up, north and east. Not used: coordinates, depth, magnitude, kind of instrument.
+#include "ground/records/checks.hpp"
 #include "ground/records/formats.hpp"
 #include "ground/records/keys.hpp"
 #include "ground/records/reader.hpp"
@@ -43,9 +44,10 @@ std::vector<std::string> components(const Keys& header) {
 void check_range(const Keys& header, const Channel& channel) {
   const std::string key = "AmplitudeMAX. " + channel.name;
   if (!header.has(key)) return;
-  const auto [least, most] = std::ranges::minmax_element(channel.acceleration);
-  check_peak(*most, before(header.value(key), "~"), header.line(key));
-  check_peak(*least, after(header.value(key), "~"), header.line(key));
+  const std::string_view most = trim(before(header.value(key), "~")), least = trim(after(header.value(key), "~"));
+  std::string_view up = most, down = least;
+  const double above = std::abs(take_number(up).value_or(0)), below = std::abs(take_number(down).value_or(0));
+  check_peak(channel, above > below ? most : least, header.line(key));
 }
 
 /// Rejects times that are half a step or more away from those of the sampling rate.

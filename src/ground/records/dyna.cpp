@@ -1,4 +1,5 @@
 // ESM and ITACA: the DYNA header, one key per line.
+#include "ground/records/checks.hpp"
 #include "ground/records/formats.hpp"
 #include "ground/records/keys.hpp"
 #include "ground/records/reader.hpp"
@@ -24,16 +25,14 @@ std::size_t header_lines(const Lines& lines) {
 
 }  // namespace
 
-bool is_dyna(const Lines& lines) {
-  return lines[0].starts_with("EVENT_NAME:") && Keys(lines, header_lines(lines)).has("SAMPLING_INTERVAL_S");
-}
+bool is_dyna(const Lines& lines) { return Keys(lines, header_lines(lines)).has("SAMPLING_INTERVAL_S"); }
 
 std::vector<Channel> read_dyna(const Lines& lines) {
   const std::size_t first = header_lines(lines);
   const Keys header(lines, first);
   if (const std::string_view type = header.value("DATA_TYPE"); !type.empty() && !has(type, "ACCELERATION"))
     refuse_line(header.line("DATA_TYPE"), "expected acceleration, got " + quote(type));
-  if (has(header.value("DATA_TYPE"), "SPECTR"))
+  if (has(header.value("DATA_TYPE"), "SPECTR") || has(header.value("DATA_TYPE"), "PSEUDO"))
     refuse_line(header.line("DATA_TYPE"), "expected an acceleration history, got " + quote(header.value("DATA_TYPE")));
 
   Channel channel{.name = header.text("STREAM"),
@@ -49,6 +48,9 @@ std::vector<Channel> read_dyna(const Lines& lines) {
   reader.block(first, "header");
   channel.acceleration = reader.numbers(samples, "samples");
   reader.require_end(samples);
+  if (header.has("PGA_CM/S^2")) check_peak(channel, header.value("PGA_CM/S^2"), "cm/s^2", header.line("PGA_CM/S^2"));
+  if (!header.value("DURATION_S").empty())
+    check_duration(channel, header.number("DURATION_S"), header.line("DURATION_S"));
   return {channel};
 }
 

@@ -1,4 +1,5 @@
 // GeoNet V1A and V2A.
+#include "ground/records/checks.hpp"
 #include "ground/records/formats.hpp"
 #include "ground/records/reader.hpp"
 
@@ -35,6 +36,11 @@ std::vector<Channel> read_geonet(const Lines& lines) {
         joined({squeeze(text[6]), squeeze(before(text[7], "  ")),
                 squeeze(before(trim(after(text[1], "Site")), " ")) + " " + squeeze(text[2]), component.name});
     component.acceleration = reader.numbers(samples(34), "samples", width);
+    std::string_view step = trim(after(text[10], " at "));
+    if (const std::optional<double> seconds = take_number(step)) check_step(component, *seconds, heading + 10);
+    std::string_view peak = trim(after(text[13], "peak"));
+    const std::string_view number = peak;
+    if (take_number(peak)) check_peak(component, number, first_word(peak), heading + 13);
     reader.block((samples(35) + columns - 1) / columns, "velocities");
     reader.block((samples(36) + columns - 1) / columns, "displacements");
     components.push_back(std::move(component));

@@ -1,4 +1,5 @@
 // K-NET and KiK-net.
+#include "ground/records/checks.hpp"
 #include "ground/records/formats.hpp"
 #include "ground/records/reader.hpp"
 
@@ -32,7 +33,8 @@ double number(const Lines& lines, std::string_view label) {
 }  // namespace
 
 bool is_knet(const Lines& lines) {
-  return lines.size() > header_lines && lines[0].starts_with("Origin Time") && lines[5].starts_with("Station Code");
+  return lines.size() > header_lines && same(lines[0].substr(0, 11), "Origin Time") &&
+         same(lines[5].substr(0, 12), "Station Code");
 }
 
 std::vector<Channel> read_knet(const Lines& lines) {
@@ -47,6 +49,7 @@ std::vector<Channel> read_knet(const Lines& lines) {
 
   // N-S, E-W, U-D; of KiK-net 1 to 3 in the borehole and 4 to 6 at the surface.
   channel.name = squeeze(value(lines, "Dir.", line));
+  if (channel.name.find_first_not_of("0123456789-") == std::string::npos) channel.orientation = "unknown";
   if (channel.name.size() == 1 && channel.name[0] >= '1' && channel.name[0] <= '6') {
     channel.orientation = std::string_view("NEZ")[static_cast<std::size_t>(channel.name[0] - '1') % 3];
     channel.sensor = channel.name[0] < '4' ? "borehole" : "surface";
@@ -69,6 +72,8 @@ std::vector<Channel> read_knet(const Lines& lines) {
   channel.acceleration = reader.numbers(samples, "samples", 9);
   reader.require_end(samples);
   for (double& n : channel.acceleration) n *= *numerator / *denominator;
+  const std::string_view peak = value(lines, "Max. Acc. (gal)", line);
+  check_peak(channel, peak, line);
   return {channel};
 }
 

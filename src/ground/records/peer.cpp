@@ -39,7 +39,8 @@ bool is_peer(const Lines& lines) {
 
 std::vector<Channel> read_peer(const Lines& lines) {
   const std::size_t size = size_line(lines), quantity = line_before(lines, size);
-  if (!has(lines[quantity], "ACCELERATION"))
+  const auto says = [&](std::string_view word) { return has(lines[quantity], word); };
+  if (!says("ACCELERATION") || says("SPECTR") || says("PSEUDO") || says("FOURIER"))
     refuse_line(quantity, "expected a PEER file of acceleration (AT2), got " + quote(lines[quantity]));
   std::string_view line = lines[size], rest;
   std::optional<double> count = labeled_number(line, "NPTS", rest), dt = labeled_number(line, "DT", rest);

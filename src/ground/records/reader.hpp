@@ -43,6 +43,9 @@ class Reader {
       if (!failed.empty())
         refuse_line(at_, "expected number " + std::to_string(values.size() + 1) + " of the " + stated + ", got " +
                              quote(failed));
+      if (ends_cut_off(lines_[at_]))
+        refuse_line(at_,
+                    "the last number of the line is cut off: " + quote(lines_[at_].substr(lines_[at_].size() / 2)));
     }
     if (values.size() > count) refuse_line(at_ - 1, "more than the " + stated);
     return values;

@@ -116,7 +116,8 @@ std::string decoded(std::string text) {
   const std::string_view mark = std::string_view(text).substr(0, 2);
   if (mark == "\xFF\xFE" || mark == "\xFE\xFF")
     text = utf16_to_utf8(std::string_view(text).substr(2), mark[0] == '\xFF');
-  while (text.ends_with('\0') || text.ends_with('\x1A')) text.pop_back();
+  constexpr std::string_view filling("\0\x1A \t\r\n", 6);
+  text.resize(text.find_last_not_of(filling) + 1);  // 0 if there is nothing else
   if (const std::size_t at = text.find('\0'); at != std::string::npos)
     throw std::invalid_argument("plain text is needed, got a NUL byte at offset " + std::to_string(at) +
                                 " (a binary file, or UTF-16 without its byte-order mark)");
@@ -252,14 +253,27 @@ RecordComponent component_of(Channel channel, const std::string& name, const std
           std::move(sources)};
 }
 
+/// The channels of a file whose first lines were blank.
+std::vector<Channel> read(const Format& format, const Lines& lines, std::size_t blank) {
+  try {
+    return format.read(lines);
+  } catch (const BadLine& error) {
+    throw std::invalid_argument("line " + std::to_string(error.index + blank + 1) + ": " + error.what());
+  }
+}
+
 /// All requested components of a file.
 std::vector<RecordComponent> parse(std::string content, const std::string& file, const RecordOptions& options,
                                    bool only_one) {
   try {
     const std::string text = decoded(std::move(content));
-    const Lines lines = split(text);
+    Lines lines = split(text);
+    const auto is_written = [](std::string_view line) { return !trim(line).empty(); };
+    const auto first = std::ranges::find_if(lines, is_written);
+    const auto blank = static_cast<std::size_t>(first - lines.begin());
+    lines.erase(lines.begin(), first);
     const Format& format = recognize(lines);
-    std::vector<Channel> channels = format.read(lines);
+    std::vector<Channel> channels = read(format, lines, blank);
     const bool alone = channels.size() == 1;
     channels = choose(std::move(channels), options.component);
     if (only_one && channels.size() != 1) refuse_choice(channels, options.component);
@@ -281,7 +295,12 @@ std::vector<RecordComponent> parse(std::string content, const std::string& file,
 std::optional<RecordFormat> record_format(std::string_view content) {
   try {
     const std::string text = decoded(std::string(content));
-    return recognize(split(text)).about;
+    Lines lines = split(text);
+    std::erase_if(lines, [written = false](std::string_view line) mutable {
+      written = written || !trim(line).empty();
+      return !written;
+    });
+    return recognize(lines).about;
   } catch (const std::invalid_argument&) {
     return std::nullopt;
   }

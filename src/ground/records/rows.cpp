@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "ground/records/checks.hpp"
 #include "ground/records/times.hpp"
 #include "stickslip/error.hpp"
 
@@ -49,32 +50,6 @@ std::size_t fortran_width(std::string_view format) {
   if (!rest.empty() && (lower(rest[0]) == 'f' || lower(rest[0]) == 'e'))
     std::from_chars(rest.data() + 1, rest.data() + rest.size(), width);
   return width;
-}
-
-double checked_step(double seconds, std::size_t line) {
-  constexpr double longest = 1;
-  if (!(seconds > 0 && seconds <= longest))
-    refuse_line(line, "expected a time step above 0 and up to 1 s, got " + detail::shortest(seconds) + " s");
-  return seconds;
-}
-
-double largest(const std::vector<double>& values) {
-  double peak = 0;
-  for (const double value : values) peak = std::max(peak, std::abs(value));
-  return peak;
-}
-
-void check_peak(double peak, std::string_view stated, std::size_t line) {
-  std::string_view rest = stated = trim(stated);
-  if (stated.empty()) return;
-  const std::optional<double> value = take_number(rest);
-  if (!value) refuse_line(line, "expected a peak value, got " + quote(stated));
-  const double difference = std::abs(std::abs(peak) - std::abs(*value));
-  Resolution printed;
-  printed.add(stated.substr(0, stated.size() - rest.size()));
-  if (difference > std::max(printed.units()[0], 0.01 * std::abs(*value)))
-    refuse_line(line, "the header states a peak of " + detail::shortest(*value) + ", the samples have " +
-                          detail::shortest(peak));
 }
 
 double printed_step(const Rows& rows, const Lines& lines) {

@@ -32,18 +32,6 @@ bool is_text(std::string_view line);
 /// Width of a column in a Fortran format such as `4F10.3`, or 0.
 std::size_t fortran_width(std::string_view format);
 
-/// Rejects a time step that no strong-motion record has.
-/// @return  the step
-double checked_step(double seconds, std::size_t line);
-
-/// The largest absolute value.
-double largest(const std::vector<double>& values);
-
-/// Rejects samples whose peak differs clearly from the one in the header: by more than a unit of its last digit and by
-/// more than 1 percent. An empty text states no peak.
-/// @param line  of the statement
-void check_peak(double peak, std::string_view stated, std::size_t line);
-
 /// The step of the times in the first column, which must be even to their printed precision: see `set_times`.
 double printed_step(const Rows& rows, const Lines& lines);
 

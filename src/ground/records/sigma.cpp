@@ -2,6 +2,7 @@
 //
 // Source: GEM gmpe-smtk, sigma parser; columns have 14 characters, signs run together. Not used: network, processing,
 // cut-off frequencies. The time of the first sample is not stated.
+#include "ground/records/checks.hpp"
 #include "ground/records/formats.hpp"
 #include "ground/records/keys.hpp"
 #include "ground/records/reader.hpp"
@@ -49,8 +50,7 @@ std::vector<Channel> read_sigma(const Lines& lines) {
   channel.units = squeeze(after(series, " in "));
   channel.acceleration = reader.numbers(samples, "samples", width);
   reader.require_end(samples);
-  if (header.has(peak_key) && same(channel.units, "m/s/s"))
-    check_peak(largest(channel.acceleration), header.value(peak_key), header.line(peak_key));
+  if (header.has(peak_key)) check_peak(channel, header.value(peak_key), "m/s/s", header.line(peak_key));
   return {channel};
 }
 

@@ -1,4 +1,5 @@
 // USGS SMC.
+#include "ground/records/checks.hpp"
 #include "ground/records/formats.hpp"
 #include "ground/records/reader.hpp"
 
@@ -38,6 +39,16 @@ std::vector<Channel> read_smc(const Lines& lines) {
       joined({known(text[3]), squeeze(before(after(text[5], "station ="), "component=")), component.name});
   component.acceleration = reader.numbers(samples, "samples");
   reader.require_end(samples);
+  std::string_view peak = trim(after(text[6], "pk acc"));
+  if (peak.starts_with('=')) peak = trim(peak.substr(1));
+  if (std::string_view rest = peak; take_number(rest)) check_peak(component, peak, 6);
+  // Reals 30 to 33: time and value of the maximum and the minimum.
+  const auto largest = std::ranges::max_element(component.acceleration);
+  const double at = static_cast<double>(largest - component.acceleration.begin()) * *component.dt;
+  if (real[30] < real[0] && std::abs(real[30] - *largest) <= 0.01 * std::abs(*largest) &&
+      std::abs(real[29] - at) > 0.25 * at + 2 * *component.dt)
+    refuse_line(17, "the header states the maximum at " + detail::shortest(real[29]) +
+                        " s, with its sampling rate it is at " + detail::shortest(at) + " s");
   return {component};
 }
 

@@ -106,9 +106,14 @@ std::string joined(std::initializer_list<std::string> parts) {
   return result;
 }
 
-void refuse_line(std::size_t index, const std::string& message) {
-  throw std::invalid_argument("line " + std::to_string(index + 1) + ": " + message);
+std::string first_word(std::string_view text) {
+  text = trim(text);
+  text = text.substr(0, text.find_first_of(" \t,;()"));
+  while (text.ends_with('.')) text.remove_suffix(1);
+  return std::string(text);
 }
+
+void refuse_line(std::size_t index, const std::string& message) { throw BadLine(index, message); }
 
 /// Takes a number whose digits make a whole number of at most 2^53 and whose power of ten is at most 22 in magnitude: the
 /// product or quotient of the two is then correctly rounded (see `read_short_number`). One pass over the digits; nothing
@@ -238,6 +243,20 @@ std::optional<double> labeled_number(std::string_view line, std::string_view lab
     return rest.starts_with('.') || (!rest.empty() && is_sign(rest[0])) ? std::nullopt : value;
   }
   return std::nullopt;
+}
+
+bool ends_cut_off(std::string_view line) {
+  const auto is_letter = [](char c) { return lower(c) == 'e' || lower(c) == 'd'; };
+  // From the right: the last number, then how far the exponents of the two before it reach behind their letters.
+  line = trim(line);
+  const auto length_of_last = [&] {
+    const std::string_view word = line.substr(line.find_last_of(" \t") + 1);
+    line = trim(line.substr(0, line.size() - word.size()));
+    const auto letter = std::find_if(word.rbegin(), word.rend(), is_letter);
+    return letter == word.rend() ? std::size_t{0} : static_cast<std::size_t>(letter - word.rbegin()) + 1;
+  };
+  const std::size_t last = length_of_last(), before = length_of_last();
+  return before > last && length_of_last() == before;
 }
 
 std::size_t as_count(double value, std::size_t line, std::string_view what) {

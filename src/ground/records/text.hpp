@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <initializer_list>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,6 +48,17 @@ std::string_view after(std::string_view text, std::string_view key);
 std::string quote(std::string_view text);
 
 std::string joined(std::initializer_list<std::string> parts);
+
+/// The first word of a text, without brackets and points at its end.
+std::string first_word(std::string_view text);
+
+/// What is wrong with a line of a file.
+class BadLine : public std::invalid_argument {
+ public:
+  BadLine(std::size_t index, const std::string& message) : std::invalid_argument(message), index(index) {}
+
+  std::size_t index;
+};
 
 [[noreturn]] void refuse_line(std::size_t index, const std::string& message);
 
@@ -98,6 +110,9 @@ std::string_view append_numbers(std::vector<double>& values, std::string_view li
 
 /// The number after a label, as in `DT= .01`, or nothing; `rest` becomes what follows it.
 std::optional<double> labeled_number(std::string_view line, std::string_view label, std::string_view& rest);
+
+/// Whether the last number of a line has a shorter exponent than the others, two or more, or none: the line was cut.
+bool ends_cut_off(std::string_view line);
 
 std::size_t as_count(double value, std::size_t line, std::string_view what);
 

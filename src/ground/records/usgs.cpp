@@ -4,6 +4,7 @@
 // Used: the station, event and component, the sampling rate, the data type, the number of points and the first unit. The
 // filter and the date are not used.
 // Layout: the files of the Whittier Narrows earthquake of 1987 (Brady and others, USGS Open-File Report 89-12).
+#include "ground/records/checks.hpp"
 #include "ground/records/formats.hpp"
 #include "ground/records/reader.hpp"
 
@@ -48,6 +49,7 @@ std::vector<Channel> read_usgs(const Lines& lines) {
                     .dt = 1 / number_after(text, heading, 5, "SAMPLES/SEC=")};
     channel.title = joined({squeeze(text[2]), squeeze(text[0]), channel.name});
     channel.acceleration = reader.numbers(samples, "samples", 8);
+    if (!channels.empty()) check_step(channels[0], *channel.dt, heading + 5);
     if (same(trim(after(text[5], "DATA TYPE=")), "AC")) channels.push_back(std::move(channel));
   }
   if (channels.empty()) throw std::invalid_argument("no series of this file holds acceleration (DATA TYPE=AC)");
