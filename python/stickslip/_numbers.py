@@ -37,6 +37,9 @@ def reals(value: ArrayLike, what: str) -> NDArray[np.float64]:
         Other values; the message begins with `what`.
     """
     try:
+        # A masked cell is no number.
+        if isinstance(value, np.ma.MaskedArray):
+            return np.ma.filled(value.astype(float), np.nan)
         return np.asarray(value, float)
     except (TypeError, ValueError):
         pass

@@ -89,10 +89,12 @@ std::optional<double> azimuth_of(std::string_view orientation) {
   for (const std::string_view unit : {"DEGREES", "DEG.", "DEG", "\xC2\xB0"})
     if (const std::size_t at = text.find(unit); at != std::string::npos && at + unit.size() + 1 >= text.size())
       text.erase(at, unit.size());  // at the end, or before its quadrant: N 45 DEG E
-  if (is_one_of(text, {"N", "NORTH", "N-S", "N/S", "NS", "S-N", "SN", "NORTH-SOUTH"})) return 0;
-  if (is_one_of(text, {"E", "EAST", "E-W", "E/W", "EW", "W-E", "WE", "EAST-WEST"})) return 90;
-  if (is_one_of(text, {"S", "SOUTH"})) return 180;
-  if (is_one_of(text, {"W", "WEST"})) return 270;
+  if (is_one_of(text, {"N", "NORTH", "N-S", "N/S", "NS", "S-N", "SN", "NORTH-SOUTH", "NORD", "NORTE", "KUZEY"}))
+    return 0;
+  if (is_one_of(text, {"E", "EAST", "E-W", "E/W", "EW", "W-E", "WE", "EAST-WEST", "OST", "EST", "ESTE", "DOGU"}))
+    return 90;
+  if (is_one_of(text, {"S", "SOUTH", "SUD", "SUR"})) return 180;
+  if (is_one_of(text, {"W", "WEST", "OVEST", "OUEST", "OESTE"})) return 270;
   if (text.size() > 2 && is_one_of(text.substr(0, 1), {"N", "S"}) &&
       is_one_of(text.substr(text.size() - 1), {"E", "W"})) {
     const std::optional<double> angle = detail::read_number(std::string_view(text).substr(1, text.size() - 2));
@@ -106,8 +108,27 @@ std::optional<double> azimuth_of(std::string_view orientation) {
 
 int upward(std::string_view orientation) {
   const std::string text = plain(orientation);
-  if (is_one_of(text, {"UP", "U", "Z", "UD", "U-D", "U/D", "UP-DOWN", "UPWARD", "UPWARDS", "V", "VER", "VERT", "VERT.",
-                       "VRT", "VERTICAL"}))
+  if (is_one_of(text, {"UP",
+                       "U",
+                       "Z",
+                       "UD",
+                       "U-D",
+                       "U/D",
+                       "UP-DOWN",
+                       "UPWARD",
+                       "UPWARDS",
+                       "V",
+                       "VER",
+                       "VERT",
+                       "VERT.",
+                       "VRT",
+                       "VERTICAL",
+                       "VERTICALE",
+                       "VERTIKAL",
+                       "SENKRECHT",
+                       "DUSEY",
+                       "D\xC3\xBC\xC5\x9F"
+                       "EY"}))
     return 1;
   return is_one_of(text, {"DOWN", "DWN", "DN", "D", "DOWNWARD", "DOWNWARDS"}) ? -1 : 0;
 }
@@ -154,6 +175,8 @@ std::string orientation_in(std::string_view text) {
 
 std::string orientation_in_file_name(std::string_view name) {
   name = name.substr(std::min(name.find_last_of("/\\") + 1, name.size()));
+  for (const std::string_view packed : {".gz", ".bz2", ".xz"})
+    if (name.ends_with(packed)) name.remove_suffix(packed.size());
   // The extension of the Japanese networks, or what follows the last mark of the stem.
   const std::size_t point = name.rfind('.');
   if (point != std::string_view::npos) {
@@ -161,11 +184,22 @@ std::string orientation_in_file_name(std::string_view name) {
     if (extension.size() == 3 && extension[2] >= '1' && extension[2] <= '2') extension.pop_back();
     if (is_one_of(extension, {"NS", "EW", "UD", "UP", "VER", "VERT"})) return extension;
   }
-  const std::string_view stem = name.substr(0, point);
-  const std::string end = plain(stem.substr(stem.find_last_of("-_. ") + 1));  // from the first if there is no mark
-  return is_one_of(end, {"N", "E", "S", "W", "NS", "EW", "UD", "UP", "DN", "DWN", "DOWN", "V", "VER", "VERT", "Z"})
-             ? end
-             : std::string();
+  std::string_view stem = name.substr(0, point);
+  // What programs add to a name: " (1)", "_corrected".
+  if (stem.ends_with(')'))
+    if (const std::size_t open = stem.rfind(" ("); open != std::string_view::npos) stem = stem.substr(0, open);
+  std::string end;
+  const bool alone = stem.find_first_of("-_. ") == std::string_view::npos;
+  do {
+    const std::size_t mark = stem.find_last_of("-_. ");
+    end = plain(stem.substr(mark + 1));  // the whole stem if there is no mark
+    stem = stem.substr(0, mark == std::string_view::npos ? 0 : mark);
+  } while (!stem.empty() && is_one_of(end, {"CORRECTED", "COR", "ACC", "ACCEL", "FILTERED", "RAW"}));
+  if (alone && end.size() == 1) return {};  // e.csv
+  if (is_one_of(end,
+                {"N", "E", "S", "W", "NS", "EW", "UD", "UP", "DN", "DWN", "DOWN", "V", "VER", "VERT", "VERTICAL", "Z"}))
+    return end;
+  return orientation_of_channel(end);
 }
 
 std::string orientation_at(double azimuth) { return detail::shortest(reduced(azimuth)); }

@@ -198,7 +198,7 @@ TEST_CASE("formats that begin alike are told apart", "[records]") {
 }
 
 TEST_CASE("one column needs its time step, and units", "[records]") {
-  const std::string column = "# Made-up, one column\n0.1\n-0.25\n1.5E-4\n\n0.5\n";
+  const std::string column = "# Made-up, one column\n0.1\n-0.25\n1.5E-4\n0.5\n\n";
   const GroundMotion motion = read(column, {.units = "g", .dt = 0.02});
   CHECK(motion.dt() == 0.02);
   CHECK(samples(motion) == std::vector<double>{0.1 * g, -0.25 * g, 1.5e-4 * g, 0.5 * g});
@@ -207,6 +207,7 @@ TEST_CASE("one column needs its time step, and units", "[records]") {
   refuses(column, {"no units"}, {.dt = 0.02});
   refuses(column, {"no time step", "pass dt"}, in_g);
   refuses("0.1\n0.2 0.3\n", {"line 2", "1 column as in line 1", "got 2"}, {.units = "g", .dt = 0.1});
+  refuses("0.1\n0.2\n\n0.3\n", {"line 3", "a sample may be missing"}, {.units = "g", .dt = 0.1});
   refuses("0.1\nx\n", {"line 2", "finite numbers", "'x'"}, {.units = "g", .dt = 0.1});
   for (const double bad : {-0.1, std::numeric_limits<double>::infinity(), std::nan("")})
     refuses(column, {"dt must be positive and finite"}, {.units = "g", .dt = bad});

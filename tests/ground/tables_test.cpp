@@ -266,3 +266,96 @@ TEST_CASE("a vertical component is never taken for a horizontal one", "[records]
     CHECK(upward(one(table, {.units = "m/s^2"}, file).motion.orientation()) == 0);
   }
 }
+
+TEST_CASE("labels state directions in many ways, and words beside them none", "[records]") {
+  const std::string table = rows(",", seconds);
+  const auto direction = [&](const std::string& label) {
+    return one("t (s)," + label + "\n" + table, {.units = "m/s^2"}).motion.orientation();
+  };
+  for (const char* label :
+       {"accZ", "az", "Az", "ACCZ", "zacc", "ugz", "AccUD", "UDacc", "acc.Z", "dirZ", "AccUp", "Acc (UD) (m/s2)",
+        "Acc (V) (m/s2)", "Component 3 (vertical)", "Vertikal", "Verticale", "XX.STA..HNZ", "accelerationVertical"}) {
+    CAPTURE(label);
+    CHECK(upward(direction(label)) == 1);
+  }
+  for (const char* label : {"S-wave acc (m/s2)", "acc_w_filter_m/s2", "Acc w/o filter (m/s2)", "Made-up acc",
+                            "acc_d (m/s2)", "Site D acc (m/s2)", "Acc 2", "0", "Acc 1e3"}) {
+    CAPTURE(label);
+    CHECK(direction(label).empty());
+  }
+  CHECK(azimuth_of(direction("Nord (m/s2)")) == 0);
+  CHECK(azimuth_of(direction("accE")) == 90);
+  // A letter in brackets is no newton and no volt, a second T no second time.
+  const std::string three = rows(",", seconds, {1, 0.8, 0.3});
+  for (const char* labels :
+       {"Time (s),Acc (N),Acc (E),Acc (Z)", "Time (s),L (m/s2),T (m/s2),V (m/s2)", "Time (s),W,S,D"}) {
+    CAPTURE(labels);
+    CHECK(parse_components(labels + ("\n" + three), "a", {.units = "m/s^2"}).size() == 3);
+  }
+  // The direction of the record may stand on a line of its own.
+  for (const char* line : {"# Component: UP", "# Orientation = vertical", "# VERTICAL COMPONENT", "Channel: HNZ"})
+    CHECK(upward(one(line + ("\nTime (s),Acc (m/s2)\n" + table)).motion.orientation()) == 1);
+  for (const char* file :
+       {"CPM-UP (1).txt", "CPM_UP_corrected.csv", "CPM_HNZ.csv", "BHZ.txt", "CPM-UP.txt.gz", "CPM_vertical.csv"})
+    CHECK(upward(one(table, {.units = "m/s^2"}, file).motion.orientation()) == 1);
+  CHECK(read("Time (s),Acc N (m/s2),Acc E (m/s2)\n" + rows(",", seconds, {1, 0.5}), {.component = "N"})
+            .peak_acceleration() == Approx(largest()).epsilon(1e-6));
+  CHECK(read("time,0,1\n" + rows(",", seconds, {1, 0.5}), {.units = "m/s^2", .component = "#1"}).peak_acceleration() ==
+        Approx(largest()).epsilon(1e-6));
+}
+
+TEST_CASE("what may be understood in two ways is refused", "[records][errors]") {
+  const std::string table = rows(",", seconds);
+  const RecordOptions given{.units = "m/s^2"};
+  // Thousands or decimals.
+  std::string thousands = "Time (ms);Acc (mm/s2)\n";
+  for (int i = 0; i < 200; ++i)
+    thousands += std::to_string(10 * i) + ";" + (i == 100 ? "1,150" : std::to_string(5 * i)) + "\n";
+  CHECK_THAT(refusal(thousands), ContainsSubstring("line 102: commas may separate thousands or decimals"));
+  // Multiplied units, a letter that may be one, and units that are none.
+  for (const char* label : {"Acc in milli g", "Acc 1e-3 g", "Acc x 1000 (g)", "Acc (g) *100", "acc_pct_g"})
+    CHECK_THAT(refusal("Time (s)," + std::string(label) + "\n" + table),
+               ContainsSubstring("unknown unit of acceleration") || ContainsSubstring("states no units"));
+  for (const char* label : {"Range 2 g", "station_G", "Sensor G"})
+    CHECK_THAT(refusal("Time (s)," + std::string(label) + "\n" + table), ContainsSubstring("states no units"));
+  for (const char* remark : {"# motion g", "# data: g", "# the g"})
+    CHECK_THAT(refusal(remark + ("\nTime,Acc\n" + table)), ContainsSubstring("states no units"));
+  // Units in a row of their own, of other quantities and of time.
+  CHECK_THAT(refusal("Time,A\ns,m/s\n" + table, given), ContainsSubstring("'m/s' is a velocity"));
+  is_the_record(read("Time,Acc\nms,m/s2\n" + rows(",", [](int i) { return std::to_string(10 * i); })));
+  CHECK_THAT(refusal("Time (weeks),Acc (g)\n" + table), ContainsSubstring("line 1: the time must be in seconds"));
+  // Two clocks.
+  std::string clocks = "Time (s),A1 (g),Time (s),A2 (g)\n";
+  for (int i = 0; i < 200; ++i) clocks += seconds(i) + ",1," + print("%.2f", 0.02 * i) + ",2\n";
+  CHECK_THAT(refusal(clocks), ContainsSubstring("columns 1 and 3 are times that differ"));
+  // Cells that a spreadsheet could not compute, and empty ones.
+  for (const char* cell : {"#N/A", "#DIV/0!", "#VALUE!"})
+    CHECK_THAT(refusal("Acc (m/s2)\n1\n2\n" + std::string(cell) + "\n3\n", {.dt = 0.01}),
+               ContainsSubstring("line 4: expected finite numbers"));
+  CHECK_THAT(refusal("N (m/s2),E (m/s2)\n1,2\n,\n2,3\n", {.dt = 0.01}), ContainsSubstring("line 3: an empty line"));
+  // Other quantities beside an acceleration, in whatever language.
+  for (const char* label :
+       {"Geschwindigkeit", "vitesse", "v", "dispX", "raw", "Temperatur", "friction", "gyro", "fft"}) {
+    CAPTURE(label);
+    CHECK_THAT(refusal("time," + std::string(label) + "\n" + table, given),
+               ContainsSubstring("no column holds an acceleration"));
+    is_the_record(read("time,Acc (m/s2)," + std::string(label) + "\n" + rows(",", seconds, {1, 0.5})));
+  }
+  is_the_record(read("time,Acc (m/s2),Channel 4\n" + rows(",", seconds, {1, 0.5})));
+}
+
+TEST_CASE("titles and counts stand above numbers", "[records]") {
+  const std::string table = rows(",", seconds);
+  for (const char* title : {"1995 Kobe earthquake", "17 Jan 1995", "6.9 Mw, 12 km"})
+    is_the_record(read(title + ("\nTime (s),Acc (m/s2)\n" + table)));
+  for (const char* title : {"Acceleration history", "Kobe N", "North component"})
+    is_the_record(read(title + ("\n" + rows(" ", seconds)), {.units = "m/s^2"}));
+  std::string column;
+  for (int i = 0; i < count; ++i) column += print("%.7f\n", sample(i));
+  for (const char* remark : {"# Peak acceleration (g): 0.28", "# Force balance accelerometer", "# up to 25 Hz"})
+    is_the_record(read(remark + ("\n" + column), {.units = "m/s^2", .dt = 0.01}));
+  std::string gal;
+  for (int i = 0; i < count; ++i) gal += print("%.0f\n", 100 * sample(i));
+  for (const char* number : {"200\n", "200.\n", "2.0E+02\n", "+200\n", "200\n0.01\n"})
+    CHECK(read(number + gal, {.units = "gal", .dt = 0.01}).samples() == count);
+}

@@ -13,8 +13,9 @@ namespace stickslip {
 
 /// What a record file may leave unspecified.
 struct RecordOptions {
-  std::string units{};         ///< of the acceleration, as accepted by `acceleration_unit`; empty: as the file states
-  std::string component{};     ///< its name in the file (case-insensitive) or its number from 1; empty: the only one
+  std::string units{};  ///< of the acceleration, as accepted by `acceleration_unit`; empty: as the file states
+  /// Name or label in the file, in any case; direction; or number from 1, also as #1, which is never a name. Empty: the only one.
+  std::string component{};
   std::optional<double> dt{};  ///< time between samples [s], for a single column of numbers; none: as the file states
   bool gaps = false;           ///< keep gaps (time steps over ten times the median) instead of rejecting the file
 };

@@ -120,6 +120,7 @@ void bind_records(py::module_& m) {
   m.def("_azimuth_of", &azimuth_of, py::arg("orientation"));
   m.def("_upward", &upward, py::arg("orientation"));
   m.def("_orientation_in", &orientation_in, py::arg("text"));
+  m.def("_orientation_in_file_name", &orientation_in_file_name, py::arg("name"));
   m.def(
       "_with_orientation",
       [](const GroundMotion& motion, std::string orientation) {

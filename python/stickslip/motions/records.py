@@ -316,7 +316,9 @@ def _axis_of(
 
 def chosen(names: Sequence[str], wanted: str | SupportsIndex) -> list[int]:
     """The place of the one component of that name, else of that number from 1; or none."""
-    text = wanted if isinstance(wanted, str) else str(index(wanted))
+    text = wanted if isinstance(wanted, str) else f"#{index(wanted)}"
+    if text.startswith("#"):
+        return [i for i in range(len(names)) if f"#{i + 1}" == text]
     named = [i for i, name in enumerate(names) if name.lower() == text.lower()]
     found = named or [i for i in range(len(names)) if str(i + 1) == text]
     return found if len(found) == 1 else []
@@ -327,8 +329,9 @@ def selected(names: Sequence[str], wanted: str | None, only_one: bool) -> list[i
     places = list(range(len(names))) if wanted is None else chosen(names, wanted)
     if len(places) != 1 and (only_one or wanted is not None):
         known = ", ".join(f"{i} {name}" for i, name in enumerate(names, 1))
+        given = (wanted or "").removeprefix("#")
         raise ValueError(
-            f"select one component by name or number, available: {known}; got {wanted or ''!r}"
+            f"select one component by name or number, available: {known}; got {given!r}"
         )
     return places
 
@@ -463,6 +466,7 @@ class File(NamedTuple):
 
     shown: str  # its name, as `read_record` takes it
     content: Callable[[], bytes]
+    member: str = ""  # of an archive that holds nothing else
 
     def components(
         self,
@@ -480,6 +484,9 @@ class File(NamedTuple):
             default_units=reading.row_units or reading.units,
             default_dt=reading.row_dt or reading.dt,
         )
+        if self.member and len(found) == 1 and not found[0].motion.orientation:
+            said = _core._orientation_in_file_name(self.member)
+            found = [found[0]._replace(motion=_core._with_orientation(found[0].motion, said))]
         try:
             return [_agreeing(one, reading, len(found) == 1) for one in found]
         except ValueError as error:
@@ -512,7 +519,8 @@ def files_in(file: _File) -> list[File]:
     content = decompressed(packed, shown)
     archive = None if members else archive_in(content, shown)
     if archive is None or len(archive.names) <= 1:
-        return [File(shown, lambda: unpacked(content, members, shown))]
+        member = archive.names[0] if archive and archive.names else ""
+        return [File(shown, lambda: unpacked(content, members, shown), member)]
 
     def inside(name: str) -> File:
         path = f"{shown}::{name}"
@@ -574,7 +582,8 @@ def _is_no_record(file: File, beside_known: bool) -> bool:
 
 
 def _text(component: str | SupportsIndex) -> str:
-    return component if isinstance(component, str) else str(index(component))
+    """A component as `_core._parse_components` takes it: #1 is a number, and never a name."""
+    return component if isinstance(component, str) else f"#{index(component)}"
 
 
 def _shown(file: _File) -> str:

@@ -20,12 +20,16 @@ bool is_one_of(std::string_view text, Texts texts) {
   return std::ranges::any_of(texts, [text](std::string_view one) { return same(one, text); });
 }
 
-/// The words of a text: runs of letters.
+/// The words of a text: runs of letters, also divided where a capital follows a small letter: accX, UDacc.
 std::vector<std::string_view> words_of(std::string_view text) {
+  const auto is_capital = [](char c) { return c >= 'A' && c <= 'Z'; };
+  const auto is_part = [](char c) { return is_letter(c) || static_cast<unsigned char>(c) >= 0x80; };
   std::vector<std::string_view> words;
   for (std::size_t at = 0; at < text.size();) {
     std::size_t end = at;
-    while (end < text.size() && is_letter(text[end])) ++end;
+    while (end < text.size() && is_part(text[end]) &&
+           !(end > at && is_capital(text[end]) && is_letter(text[end - 1]) && !is_capital(text[end - 1])))
+      ++end;
     if (end > at) words.push_back(text.substr(at, end - at));
     at = std::max(end, at + 1);
   }
@@ -34,39 +38,136 @@ std::vector<std::string_view> words_of(std::string_view text) {
 
 struct Words {
   std::string_view what;
-  Texts words;
+  Texts beginnings;  // of words with four letters or more; shorter ones are whole words
 };
 
-/// Words for quantities that are no history of acceleration, also where their unit is one of acceleration.
-constexpr std::string_view spectral_value = "a spectral value";
-std::string other_quantity(const std::vector<std::string_view>& words) {
+bool begins_with(std::string_view word, std::string_view beginning) {
+  return beginning.size() < 4 ? same(word, beginning) : same(word.substr(0, beginning.size()), beginning);
+}
+
+/// What words name that is no history of acceleration, even where their unit is one of acceleration.
+std::string kind_of_value(const std::vector<std::string_view>& words) {
   static const Words all[] = {
-      {"a velocity", {"vel", "velo", "veloc", "velocity", "velocities", "speed"}},
-      {"a displacement", {"disp", "displ", "displacement", "displacements", "drift", "position"}},
-      {"a period", {"period", "periods"}},
-      {"a frequency", {"freq", "frequency", "frequencies"}},
-      {spectral_value, {"sa", "psa", "sv", "psv", "sd", "fas", "psd", "spectrum", "spectra", "spectral", "fourier"}},
-      {"a peak", {"peak", "pga", "pgv", "pgd", "max", "maximum", "min", "minimum"}},
-      {"a level of yielding", {"ky", "yield"}},
-      {"a number of counts", {"counts"}},
-      {"a mark of quality", {"quality", "flag", "qc"}},
-      {"a temperature", {"temp", "temperature"}},
-      {"a force", {"force", "shear"}},
-      {"a rotation", {"angle", "rotation", "tilt"}},
-      {"a measure of intensity", {"arias", "cav", "intensity"}},
-      {"a statement of errors", {"std", "sigma", "error", "noise"}},
+      {"a period", {"period"}},
+      {"a frequency", {"freq", "hz"}},
+      {"a spectral value",
+       {"sa", "se", "psa", "sv", "psv", "sd", "fas", "psd", "fft", "spectr", "fourier", "response", "rotd", "sagm",
+        "damping"}},
+      {"a peak", {"peak", "pga", "pgv", "pgd", "max", "maximum", "min", "minimum", "kmax"}},
+      {"a level of yielding", {"ky", "yield", "critical", "threshold"}},
+      {"a quantity of a response", {"friction", "spring", "damper", "slip"}},
+      {"a result of processing",
+       {"pseudo", "std", "error", "integral", "integrated", "cumulative", "cum", "squared", "abs", "log", "ln"}},
+      {"a rotation", {"angular", "rotational"}},
   };
   for (const Words& one : all)
     for (const std::string_view word : words)
-      if (is_one_of(word, one.words)) return std::string(one.what);
+      for (const std::string_view beginning : one.beginnings)
+        if (begins_with(word, beginning)) return std::string(one.what);
+  return {};
+}
+
+/// What words name that is no acceleration, unless they stand beside that word.
+std::string other_quantity(const std::vector<std::string_view>& words) {
+  static const Words all[] = {
+      {"a velocity", {"vel", "veloc", "velo", "speed", "geschw", "vitesse", "udot"}},
+      {"a displacement",
+       {"disp", "displ", "drift", "position", "pos", "weg", "verschieb", "deplac", "d\xC3\xA9plac", "desplaz",
+        "spostam"}},
+      {"a number of counts", {"counts", "adc", "raw"}},
+      {"a voltage", {"volt", "volts", "voltage"}},
+      {"a mark of quality", {"quality", "flag", "qc", "status"}},
+      {"a temperature", {"temp", "temper", "humid"}},
+      {"a force", {"force", "shear", "kraft", "load", "stress", "strain", "pressure", "moment"}},
+      {"a rotation", {"angle", "rotat", "tilt", "gyro", "omega", "roll", "pitch", "yaw"}},
+      {"a measure of intensity", {"arias", "cav", "intensity", "energy", "magnitude", "ia"}},
+      {"a statement of errors", {"std", "sigma", "error", "noise"}},
+      {"a place", {"lat", "lon", "latitude", "longitude", "depth", "elevation"}},
+      {"another derivative", {"jerk", "integral", "log"}},
+  };
+  for (const Words& one : all)
+    for (const std::string_view word : words)
+      for (const std::string_view beginning : one.beginnings)
+        if (begins_with(word, beginning)) return std::string(one.what);
   return {};
 }
 
 bool is_acceleration_word(std::string_view word) {
-  return is_one_of(word, {"acc", "accel", "acceleration", "accelerations", "accelerogram"});
+  return is_one_of(word, {"acc", "accel", "acceleration", "accelerations", "accelerogram", "beschl", "beschleunigung",
+                          "aceleracion", "accelerazione", "ivme"});
 }
 
-/// Sets quantity, name and seconds by the words of a label whose unit is known.
+/// Words that say nothing beside a direction.
+bool is_neutral(std::string_view word) {
+  return is_acceleration_word(word) ||
+         is_one_of(word, {"a", "ag", "ug", "in", "the", "component", "comp", "channel", "chan", "ch", "corrected",
+                          "cor", "filtered", "ground", "motion", "dir"});
+}
+
+/// The direction that a label states: its whole name, a text in brackets, or one of its words; one letter only beside
+/// words that say nothing else.
+std::string direction_in(std::string_view name, const std::vector<std::string_view>& bracketed) {
+  const bool is_number = name.find_first_not_of("0123456789.-+eE ") == std::string_view::npos;
+  if (is_number) return name.size() == 3 ? orientation_in(name) : std::string();  // 090; pandas labels columns 0, 1, 2
+  if (const std::string whole = orientation_in(name); !whole.empty() && whole == name) return whole;
+  for (const std::string_view text : bracketed)
+    if (std::string found = orientation_in(text); !found.empty() && found == text && !is_digit(text[0])) return found;
+  const std::vector<std::string_view> words = words_of(name);
+  const bool neutral =
+      std::ranges::all_of(words, [](std::string_view word) { return word.size() == 1 || is_neutral(word); });
+  std::string found;
+  for (std::string_view word : words) {
+    bool direction = false;  // az, ugz, accz, zacc
+    for (const std::string_view begin : {"a", "ag", "ug", "acc", "accel"})
+      if (word.size() == begin.size() + 1 && same(word.substr(0, begin.size()), begin) && lower(word.back()) == 'z') {
+        word = word.substr(begin.size());
+        direction = true;
+        break;
+      }
+    for (const std::string_view end : {"z", "ud", "up"})  // zacc, UDacc, accud
+      if (word.size() == end.size() + 3 && (same(word.substr(end.size()), "acc") || same(word.substr(0, 3), "acc"))) {
+        const std::string_view rest = same(word.substr(0, 3), "acc") ? word.substr(3) : word.substr(0, end.size());
+        if (!same(rest, end)) continue;
+        word = rest;
+        direction = true;
+        break;
+      }
+    const auto at = static_cast<std::size_t>(word.data() - name.data());
+    const bool of_number =
+        (at > 0 && is_digit(name[at - 1])) || (at + word.size() < name.size() && is_digit(name[at + word.size()]));
+    const bool letter =
+        word.size() == 1 && !direction && (!neutral || of_number || !is_one_of(word, {"N", "E", "S", "W", "Z", "V"}));
+    if (letter || is_neutral(word)) continue;
+    const std::string one = word.size() == 1 || !is_one_of(word, {"up", "down"}) || words.size() <= 2
+                                ? orientation_in(word)
+                                : std::string();
+    if (!one.empty() && !is_digit(one[0]) && found.empty()) found = one;
+  }
+  if (!found.empty()) return found;
+  found = orientation_in(name);  // N28W, N-S, 230 deg; a letter alone was not one above
+  return found.size() > 1 ? found : std::string();
+}
+
+/// Sets the unit that a text in brackets or at the end of a label names. Returns whether it is one.
+bool set_unit(Label& label, std::string_view unit) {
+  // One letter in brackets is rather a direction than newton or volt.
+  const bool letter =
+      trim(unit).size() == 1 && std::string_view("NEWVZUD").find(trim(unit)[0]) != std::string_view::npos;
+  if (find_acceleration_unit(unit)) {
+    label.unit = std::string(trim(unit));
+  } else if (const std::optional<double> seconds = find_time_unit(trim(unit)); seconds && !letter) {
+    label.quantity = Quantity::time;
+    label.seconds = *seconds;
+  } else if (std::string other = quantity_with_unit(unit); !other.empty() && !letter) {
+    label.quantity = Quantity::other;
+    label.other = std::move(other);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+/// Sets quantity and seconds by the words of a label whose unit is known.
 void set_quantity(Label& label) {
   const std::vector<std::string_view> words = words_of(label.name);
   const auto any = [&](Texts texts) {
@@ -74,44 +175,41 @@ void set_quantity(Label& label) {
   };
   std::string_view whole = trim(label.name);
   while (whole.ends_with('.') || whole.ends_with(':')) whole.remove_suffix(1);
-  if (std::string other = other_quantity(words); !other.empty()) {
+  const bool accelerates = std::ranges::any_of(words, is_acceleration_word);
+  std::string other = kind_of_value(words);
+  // "Spectrum compatible acc (g)" is one, "spectral acceleration" is not.
+  if (accelerates && !label.unit.empty() && is_one_of(other, {"a spectral value", "a frequency", "a period"}) &&
+      !any({"spectral", "response", "psa"}))
+    other.clear();
+  if (other.empty() && !accelerates) other = other_quantity(words);
+  if (other.empty() && label.unit.empty() && is_one_of(whole, {"v(t)", "d(t)", "u(t)"}))
+    other = "a velocity or a displacement";
+  if (other.empty() &&
+      (whole == "v" || whole == "d" || whole == "u" || whole == "vx" || whole == "vy" || whole == "ux"))
+    other = "a velocity or a displacement";
+  if (!other.empty()) {
     label.quantity = Quantity::other;
     label.other = std::move(other);
   } else if (label.quantity == Quantity::other) {
     return;  // by its unit
-  } else if (std::ranges::any_of(words, is_acceleration_word)) {
+  } else if (accelerates || !label.unit.empty()) {
     label.quantity = Quantity::acceleration;
-  } else if (whole.empty() && label.unit.empty() && label.quantity == Quantity::unknown) {
+  } else if (whole.empty() && label.quantity == Quantity::unknown) {
     label.quantity = Quantity::index;
-  } else if (is_one_of(whole, {"no", "nr", "num", "number", "#", "index", "idx", "i", "row", "sample", "samples",
-                               "frame", "point", "points", "step", "id", "line", "count"}) ||
-             (any({"time", "sample", "row", "point", "data"}) &&
-              any({"step", "number", "no", "nr", "index", "count"})) ||
+  } else if (is_one_of(whole, {"no",   "nr",  "num",    "number",  "#",       "index",   "idx",
+                               "i",    "row", "sample", "samples", "frame",   "point",   "points",
+                               "step", "id",  "line",   "count",   "counter", "sample #"}) ||
+             (any({"time", "sample", "row", "point", "data", "step"}) &&
+              any({"step", "number", "no", "nr", "index", "count", "id"}) && words.size() > 1) ||
              any({"timestep", "unnamed"})) {
     label.quantity = Quantity::index;
-  } else if (any({"time", "times", "zeit", "tiempo", "temps", "tempo"}) ||
+  } else if (any({"time", "times", "zeit", "tiempo", "temps", "tempo", "zaman", "elapsed", "timestamp"}) ||
              is_one_of(whole, {"t", "s", "sec", "secs", "second", "seconds"})) {
     label.quantity = Quantity::time;
-  } else if (const std::optional<double> seconds = find_time_unit(whole); seconds && label.unit.empty()) {
+  } else if (const std::optional<double> seconds = find_time_unit(whole); seconds) {
     label.quantity = Quantity::time;
     label.seconds = *seconds;
   }
-}
-
-/// Sets the unit that a text in brackets or at the end of a label names. Returns whether it is one.
-bool set_unit(Label& label, std::string_view unit) {
-  if (find_acceleration_unit(unit)) {
-    label.unit = std::string(trim(unit));
-  } else if (const std::optional<double> seconds = find_time_unit(trim(unit))) {
-    label.quantity = Quantity::time;
-    label.seconds = *seconds;
-  } else if (std::string other = quantity_with_unit(unit); !other.empty()) {
-    label.quantity = Quantity::other;
-    label.other = std::move(other);
-  } else {
-    return false;
-  }
-  return true;
 }
 
 /// The unit at the end of a name without brackets: `acc_g`, `Acc cm/s2`, `t/ms`, `Time in ms`.
@@ -126,16 +224,32 @@ void take_unit_at_end(Label& label) {
       continue;
     Label shorter;
     shorter.name = std::string(trim(std::string_view(name).substr(0, at)));
+    for (const std::string_view end : {" in", " units of", " unit"})
+      if (shorter.name.size() > end.size() &&
+          same(std::string_view(shorter.name).substr(shorter.name.size() - end.size()), end))
+        shorter.name.resize(shorter.name.size() - end.size());
     if (of_time) {
       set_quantity(shorter);
-      if (shorter.quantity != Quantity::time && !is_one_of(shorter.name, {"time in", "t in"})) continue;
+      if (shorter.quantity != Quantity::time) continue;
     }
+    // A g may be anything, but not behind the word for acceleration or a direction.
+    const std::vector<std::string_view> words = words_of(shorter.name);
+    if (of_acceleration && unit.size() == 1 &&
+        (words.empty() || !(is_neutral(words.back()) || !direction_in(shorter.name, {}).empty())))
+      continue;
     if (!set_unit(label, unit)) continue;
     label.name = shorter.name;
-    if (is_one_of(label.name.substr(label.name.size() - std::min<std::size_t>(label.name.size(), 3)), {" in"}))
-      label.name.resize(label.name.size() - 3);
     return;
   }
+}
+
+/// Whether a label multiplies its unit: `Acc in milli g`, `Acc (g) *100`, `Acc 1e-3 g`.
+bool is_multiplied(std::string_view label) {
+  for (const std::string_view word : words_of(label))
+    if (is_one_of(word, {"milli", "micro", "kilo", "percent", "pct"})) return true;
+  return label.find('*') != std::string_view::npos && label.find("**") == std::string_view::npos
+             ? true
+             : has(label, " x 1") || has(label, "1e-") || has(label, "1e+") || has(label, "0.0") || has(label, "/ 1");
 }
 
 /// The number, and the unit after it or in brackets before it, in `(s) = 0.01`, `= .01 SEC,`; nothing if there is more.
@@ -166,7 +280,7 @@ std::optional<Quotient> value_of(std::string_view text) {
 
 bool Label::is_recognized() const {
   return (quantity != Quantity::unknown && !(quantity == Quantity::index && text.empty())) || !unit.empty() ||
-         (words_of(name).size() <= 2 && !orientation_in(name).empty());
+         !direction.empty();
 }
 
 Label label_of(std::string_view text) {
@@ -190,6 +304,14 @@ Label label_of(std::string_view text) {
   for (auto one = bracketed.rbegin(); one != bracketed.rend() && !has_unit; ++one) has_unit = set_unit(label, *one);
   if (!has_unit) take_unit_at_end(label);
   set_quantity(label);
+  label.direction = direction_in(label.name, bracketed);
+  if (label.quantity == Quantity::acceleration && !label.unit.empty() && is_multiplied(text)) label.unit = label.text;
+  if (label.quantity == Quantity::time && label.seconds == 1 && !has_unit)
+    for (const std::string_view one : bracketed)
+      if (!is_one_of(one, {"UTC", "GMT", "JST", "local", "relative", "t", "elapsed"}) && !is_second(one)) {
+        label.quantity = Quantity::other;
+        label.other = "a time in an unknown unit";
+      }
   // A text in brackets that reads like a unit and is none: a known one must be given.
   if (!has_unit && label.unit.empty() && label.quantity != Quantity::time && label.quantity != Quantity::other)
     for (const std::string_view one : bracketed)
@@ -238,13 +360,13 @@ void split_row(std::string_view row, std::vector<std::string_view>& fields) {
 std::vector<Label> labels_in(std::string_view line, std::size_t columns) {
   line = without_mark(line);
   // First at commas, semicolons and tabs, and at two blanks; then at each blank.
-  const auto at_marks = [&] {
+  const auto at_marks = [&](std::string_view marks) {
     std::vector<std::string_view> parts;
     std::size_t begin = 0;
     bool quoted = false;
     for (std::size_t at = 0; at <= line.size(); ++at) {
       if (at < line.size() && line[at] == '"') quoted = !quoted;
-      if (at < line.size() && (quoted || (line[at] != ',' && line[at] != ';' && line[at] != '\t'))) continue;
+      if (at < line.size() && (quoted || marks.find(line[at]) == std::string_view::npos)) continue;
       parts.push_back(line.substr(begin, at - begin));
       if (at < line.size() && line[at] != '\t')  // a mark, and blanks after it
         while (at + 1 < line.size() && is_blank(line[at + 1])) ++at;
@@ -269,7 +391,8 @@ std::vector<Label> labels_in(std::string_view line, std::size_t columns) {
     }
     return parts;
   };
-  for (std::vector<std::string_view> parts : {at_marks(), at_blanks(2), at_blanks(1)}) {
+  for (std::vector<std::string_view> parts :
+       {at_marks(",;\t"), at_marks(";"), at_marks("\t"), at_blanks(2), at_blanks(1)}) {
     while (parts.size() > columns && trim(parts.back()).empty()) parts.pop_back();  // of a spreadsheet
     if (parts.size() != columns) continue;
     std::vector<Label> labels;
@@ -285,6 +408,8 @@ std::vector<Label> labels_in(std::string_view line, std::size_t columns) {
 
 bool is_comment(std::string_view line) {
   line = trim(line);
+  for (const std::string_view error : {"#N/A", "#DIV/0!", "#VALUE!", "#NUM!", "#REF!", "#NAME?", "#NULL!"})
+    if (line.starts_with(error)) return false;  // of a spreadsheet
   return line.starts_with('#') || line.starts_with('%') || line.starts_with('!') || line.starts_with("//");
 }
 
@@ -299,11 +424,13 @@ std::vector<std::string> units_in(std::string_view line, std::size_t columns) {
   line = without_mark(line);
   // What may stand before the unit.
   bool says_unit = false, says_acceleration = false;
+  const std::string_view whole = line;
   for (std::string_view rest = line;;) {
     std::size_t end = 0;
     while (end < rest.size() && is_letter(rest[end])) ++end;
     const std::string_view word = rest.substr(0, end);
     const bool of_unit = is_one_of(word, {"unit", "units"}), of_acceleration = is_acceleration_word(word);
+    if (rest.substr(end).starts_with('/')) break;  // in/s^2
     if (!of_unit && !of_acceleration &&
         !is_one_of(word,
                    {"ground", "motion", "time", "series", "history", "data", "values", "in", "the", "of", "are", "is"}))
@@ -321,22 +448,22 @@ std::vector<std::string> units_in(std::string_view line, std::size_t columns) {
     while (text.ends_with('.')) text.remove_suffix(1);
     return text;
   };
+  if (!says_unit && !says_acceleration) line = whole;
   if (find_acceleration_unit(bare(line))) return {std::string(bare(line))};
   // A unit for each column.
   std::vector<std::string_view> fields;
   split_row(line, fields);
   while (fields.size() > columns && trim(fields.back()).empty()) fields.pop_back();
   std::vector<std::string> units;
-  bool known = !fields.empty();
+  bool known = !fields.empty(), some = false;
   for (const std::string_view field : fields) {
-    const std::string_view unit = bare(field);
-    const bool of_acceleration = find_acceleration_unit(unit).has_value();
-    known = known && (of_acceleration || unit.empty() || unit == "-" || find_time_unit(unit) ||
-                      !quantity_with_unit(unit).empty());
-    units.emplace_back(of_acceleration ? unit : std::string_view());
+    const std::string unit(bare(field));
+    const bool of_record = find_acceleration_unit(unit) || find_time_unit(unit) || !quantity_with_unit(unit).empty();
+    known = known && (of_record || unit.empty() || unit == "-");
+    some = some || of_record;
+    units.push_back(unit == "-" ? std::string() : unit);
   }
-  const bool some = std::ranges::any_of(units, [](const std::string& unit) { return !unit.empty(); });
-  if (known && some && fields.size() == columns) return units;
+  if (known && some && fields.size() == columns && (columns > 1 || says_unit)) return units;
   // "units: furlong/s^2" is no remark.
   if (says_unit && !says_acceleration && fields.size() == 1 && line.find("/s") != std::string_view::npos)
     return {std::string(bare(line))};

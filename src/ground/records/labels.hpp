@@ -21,9 +21,15 @@ struct Label {
   std::string unit{};   // of acceleration, as written; empty where none is
   double seconds = 1;   // in the unit of time
   std::string other{};  // what another quantity is: "a velocity"
+  std::string direction{};
 
   /// Whether any of it says something about a record.
   bool is_recognized() const;
+
+  /// Whether it may also be a word of a title.
+  bool is_unclear() const {
+    return unit.empty() && (quantity == Quantity::unknown || quantity == Quantity::acceleration);
+  }
 };
 
 Label label_of(std::string_view text);
@@ -42,7 +48,7 @@ std::string_view without_mark(std::string_view line);
 bool is_comment(std::string_view line);
 
 /// The units that a line states which states nothing else: `units: cm/s^2`, `Accelerations in units of g`, `s,m/s2`;
-/// one for each column, or one for all; otherwise none. A unit of another quantity is an empty text.
+/// one of acceleration for all, or one of any quantity for each column; otherwise none.
 std::vector<std::string> units_in(std::string_view line, std::size_t columns);
 
 /// What a line states which states nothing else but a time step, a sampling rate or a number of samples:

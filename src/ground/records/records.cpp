@@ -151,20 +151,32 @@ Lines split(std::string_view text) {
     known += (i == 0 ? "" : ", ") + std::to_string(i + 1) + (channels[i].name.empty() ? "" : " ") +
              printable(channels[i].name, 24);
   if (channels.size() > longest) known += " and so on to " + std::to_string(channels.size());
-  throw std::invalid_argument("select one component by name or number, available: " + known + "; got " + quote(wanted));
+  throw std::invalid_argument("select one component by name or number, available: " + known + "; got " +
+                              quote(wanted.starts_with('#') ? wanted.substr(1) : wanted));
 }
 
 /// The requested ones: all if `wanted` is empty, otherwise the one with that name or number.
 std::vector<Channel> choose(std::vector<Channel> channels, const std::string& wanted) {
   if (wanted.empty()) return channels;
   std::size_t matches = 0, index = 0;
-  for (std::size_t i = 0; i < channels.size(); ++i)
+  const bool number = wanted.starts_with('#');  // never a name
+  for (std::size_t i = 0; i < channels.size() && !number; ++i)
     if (same(channels[i].name, wanted) || (!wanted.empty() && same(channels[i].label, wanted))) {
       ++matches;
       index = i;
     }
+  // A direction, if one component has it.
+  if (const std::string direction = orientation_in(wanted); matches == 0 && !direction.empty() && !is_digit(wanted[0]))
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      const std::string other =
+          orientation_in(channels[i].orientation.empty() ? channels[i].name : channels[i].orientation);
+      if (!other.empty() && azimuth_of(other) == azimuth_of(direction) && upward(other) == upward(direction)) {
+        ++matches;
+        index = i;
+      }
+    }
   if (matches == 0) {
-    const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
+    const auto [end, error] = std::from_chars(wanted.data() + (number ? 1 : 0), wanted.data() + wanted.size(), index);
     if (error == std::errc() && end == wanted.data() + wanted.size() && index >= 1 && index <= channels.size()) {
       matches = 1;
       --index;

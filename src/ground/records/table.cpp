@@ -9,9 +9,11 @@
 //   3. Without labels: the first of several columns holds times if it is even, begins near zero and has steps from 0.5
 //      to 100 ms; it holds numbers of rows if it counts 0, 1, 2 or 1, 2, 3. Otherwise all are accelerations in reading
 //      order. A number of samples may precede them.
+#include "ground/records/checks.hpp"
 #include "ground/records/formats.hpp"
 #include "ground/records/labels.hpp"
 #include "ground/records/times.hpp"
+#include "ground/records/units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -43,8 +45,28 @@ bool is_row(std::string_view line) {
   return is_numeral(line.substr(0, line.find_first_of(" \t,;\"")));
 }
 
+/// Whether a line has a word that is no number: a title such as `1995 Kobe`.
+bool has_word(std::string_view line) {
+  std::vector<std::string_view> fields;
+  split_row(line, fields);
+  return std::ranges::any_of(fields, [](std::string_view field) {
+    return !field.empty() && !is_numeral(field) && lower(field[0]) >= 'a' && lower(field[0]) <= 'z';
+  });
+}
+
+/// The first line that starts with a number, but for titles above a heading that has other lines below them.
 std::size_t first_row(const Lines& lines) {
-  return static_cast<std::size_t>(std::ranges::find_if(lines, is_row) - lines.begin());
+  const auto find = [&](std::size_t from) {
+    return static_cast<std::size_t>(
+        std::find_if(lines.begin() + static_cast<std::ptrdiff_t>(from), lines.end(), is_row) - lines.begin());
+  };
+  std::size_t row = find(0);
+  while (row < lines.size() && has_word(lines[row])) {
+    const std::size_t next = find(row + 1);
+    if (next == lines.size() || next == row + 1) break;  // rows with words among their numbers are damaged
+    row = next;
+  }
+  return row;
 }
 
 /// Whether commas are decimal points: columns are parted by something else, each comma is between digits, and no point
@@ -66,6 +88,34 @@ bool has_decimal_commas(const Lines& lines, std::size_t rows) {
   return found;
 }
 
+/// Rejects commas that may separate thousands: each is followed by three digits, numbers with one do not begin with zero,
+/// and other numbers have none, nor points.
+void refuse_thousands(const Lines& lines, std::size_t rows) {
+  std::size_t example = lines.size();
+  bool without = false;
+  std::vector<std::string_view> fields;
+  for (std::size_t i = rows; i < lines.size(); ++i) {
+    if (is_comment(lines[i])) continue;
+    std::string_view row = trim(lines[i]);
+    for (std::size_t at = 0; at < row.size();) {
+      const std::size_t end = std::min(row.find_first_of("; \t\"", at), row.size());
+      std::string_view field = row.substr(at, end - at);
+      at = end + 1;
+      if (!field.empty() && is_sign(field[0])) field.remove_prefix(1);
+      const std::size_t comma = field.find(',');
+      if (comma == std::string_view::npos) {
+        without = without || field.size() > 1;
+      } else {
+        if (field[0] == '0' || field.size() != comma + 4) return;
+        example = i;
+      }
+    }
+  }
+  if (example < lines.size() && without)
+    refuse_line(example, "commas may separate thousands or decimals in " + quote(lines[example]) +
+                             ": write numbers without separators of thousands");
+}
+
 /// Whether a line before the first row looks like a row whose first number cannot be read, as `****, 0.1`.
 bool is_damaged_row(std::string_view line) {
   line = trim(line);
@@ -85,16 +135,40 @@ bool is_whole(std::string_view token) {
   return !token.empty() && token.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
+bool is_same_unit(std::string_view a, std::string_view b) {
+  const auto one = find_acceleration_unit(a), other = find_acceleration_unit(b);
+  return one && other ? one->name == other->name || acceleration_unit(a) == acceleration_unit(b) : same(a, b);
+}
+
 /// What stands above the rows.
 struct Heading {
   std::vector<Label> labels{};       // one for each column, or none
   std::size_t line = 0;              // of the labels
-  std::vector<std::string> units{};  // one for each column, or one for all, or none
+  std::vector<std::string> units{};  // one for each column, or one of acceleration for all, or none
+  std::string direction{};           // of the record
   std::size_t units_line = 0;
   Size size{};
   std::size_t size_line = 0;
   std::string title{};
+
+  bool has_times() const { return std::ranges::find(labels, Quantity::time, &Label::quantity) != labels.end(); }
 };
+
+/// The direction in a line that states nothing else: `# Component: UP`, `Orientation = vertical`, `# VERTICAL COMPONENT`.
+std::string direction_of(std::string_view line) {
+  line = without_mark(line);
+  for (const std::string_view key : {"component", "comp.", "comp", "channel", "direction", "orientation"}) {
+    std::string_view rest;
+    if (same(line.substr(0, key.size()), key))
+      rest = trim(line.substr(key.size()));
+    else if (line.size() > key.size() && same(line.substr(line.size() - key.size()), key))
+      rest = trim(line.substr(0, line.size() - key.size()));
+    if (rest.starts_with(':') || rest.starts_with('=')) rest = trim(rest.substr(1));
+    if (rest.empty() || rest.find_first_of(" \t,;") != std::string_view::npos) continue;
+    if (std::string found = orientation_in(rest); !found.empty()) return found;
+  }
+  return {};
+}
 
 Heading heading_of(const Lines& lines, std::size_t rows, std::size_t columns) {
   Heading heading;
@@ -103,7 +177,7 @@ Heading heading_of(const Lines& lines, std::size_t rows, std::size_t columns) {
     const std::string_view line = trim(lines[i]);
     if (is_ruler(line)) continue;
     if (std::vector<std::string> units = units_in(line, columns); !units.empty()) {
-      if (!heading.units.empty() && heading.units != units)
+      if (!heading.units.empty() && !std::ranges::equal(heading.units, units, is_same_unit))
         refuse_line(i, "states other units than line " + std::to_string(heading.units_line + 1) + ": " + quote(line));
       heading.units = std::move(units);
       heading.units_line = i;
@@ -121,8 +195,13 @@ Heading heading_of(const Lines& lines, std::size_t rows, std::size_t columns) {
     if (std::exchange(labels_possible, false)) {
       heading.labels = labels_in(line, columns);
       heading.line = i;
+      // What stands above one column is a label only if it speaks of an acceleration, or is no comment.
+      if (columns == 1 && is_comment(line) && !heading.labels.empty() &&
+          heading.labels[0].quantity != Quantity::acceleration)
+        heading.labels.clear();
       if (!heading.labels.empty()) continue;
     }
+    if (const std::string direction = direction_of(line); !direction.empty()) heading.direction = direction;
     if (!line.starts_with('#')) continue;
     std::string text = squeeze(line.substr(1));
     if (has(text, ": ")) text = squeeze(after(text, ": "));
@@ -137,32 +216,49 @@ Heading heading_of(const Lines& lines, std::size_t rows, std::size_t columns) {
 struct Columns {
   std::optional<std::size_t> time{};
   double seconds = 1;  // in the unit of time
+  std::vector<std::size_t> other_times{};
   std::vector<std::size_t> acceleration{};
 };
 
 Columns columns_of(const Heading& heading, std::size_t count) {
   Columns columns;
-  for (std::size_t k = 0; k < heading.labels.size(); ++k) {
-    const Label& label = heading.labels[k];
+  const bool by_column = heading.units.size() > 1 || (count == 1 && heading.units.size() == 1);
+  // Where one column says that it is an acceleration, or states a unit of it, one that says nothing is none.
+  const bool some =
+      std::ranges::any_of(heading.labels, [](const Label& label) { return label.quantity == Quantity::acceleration; });
+  std::string others;
+  for (std::size_t k = 0; k < count; ++k) {
+    Label label = heading.labels.empty() ? Label() : heading.labels[k];
+    const std::string& unit = by_column ? heading.units[k] : std::string();
+    if (const std::string other = quantity_with_unit(unit); !other.empty()) {
+      label.quantity = Quantity::other;
+      label.other = other;
+      label.text = unit;
+    }
+    if (const std::optional<double> seconds = find_time_unit(unit)) {
+      label.quantity = Quantity::time;
+      label.seconds = *seconds;
+    }
     if (k == 0 && label.quantity == Quantity::other && (label.other == "a period" || label.other == "a frequency"))
       refuse_line(heading.line, "the first column is " + label.other + " (" + quote(label.text) +
                                     "): this is a spectrum, not an acceleration history");
+    if (label.other == "a time in an unknown unit")
+      refuse_line(heading.line, "the time must be in seconds or milliseconds, its label says " + quote(label.text));
     if (label.quantity == Quantity::time && !columns.time) {
       columns.time = k;
       columns.seconds = label.seconds;
-    } else if (label.quantity == Quantity::acceleration || label.quantity == Quantity::unknown) {
+    } else if (label.quantity == Quantity::time && label.text.size() > 1) {
+      columns.other_times.push_back(k);
+    } else if (label.quantity == Quantity::other) {
+      others += (others.empty() ? "; " : ", ") + quote(label.text) + " is " + label.other;
+    } else if (label.quantity != Quantity::index &&
+               (!some || label.quantity == Quantity::acceleration || !label.direction.empty() || k == 0 ||
+                label.quantity == Quantity::time)) {
       columns.acceleration.push_back(k);
     }
   }
-  if (heading.labels.empty()) {
-    for (std::size_t k = 0; k < count; ++k) columns.acceleration.push_back(k);
-  } else if (columns.acceleration.empty()) {
-    std::string known;
-    for (const Label& label : heading.labels)
-      if (label.quantity == Quantity::other)
-        known += (known.empty() ? "; " : ", ") + quote(label.text) + " is " + label.other;
-    refuse_line(heading.line, "no column holds an acceleration" + known);
-  }
+  if (columns.acceleration.empty())
+    refuse_line(heading.labels.empty() ? heading.units_line : heading.line, "no column holds an acceleration" + others);
   return columns;
 }
 
@@ -218,9 +314,19 @@ std::vector<Channel> in_reading_order(const std::vector<std::vector<double>>& co
   for (std::size_t i = 0; i < columns[0].size(); ++i)
     for (std::size_t k = 0; k < columns.size() && i < columns[k].size(); ++k) samples.push_back(columns[k][i]);
   if (!heading.units.empty()) channel.units = heading.units[0];
+  channel.orientation = heading.direction;
   channel.units_from = "line " + std::to_string(heading.units_line + 1);
   std::optional<double> stated = heading.size.samples;
   std::size_t line = heading.size_line;
+  // A first number that is the number of the others counts them; a time step may follow.
+  const auto total = static_cast<double>(samples.size());
+  if (first.empty() && samples.size() > 10 && (samples[0] == total - 1 || samples[0] == total - 2)) {
+    const bool step = samples[0] == total - 2;
+    if (!step || (samples[1] >= 0.0005 && samples[1] <= 0.1)) {
+      if (step && !channel.dt) channel.dt = samples[1];
+      samples.erase(samples.begin(), samples.begin() + (step ? 2 : 1));
+    }
+  }
   if (!first.empty()) {  // a number of samples, and perhaps a time step
     line = row;
     std::string_view count = first[0];
@@ -228,6 +334,7 @@ std::vector<Channel> in_reading_order(const std::vector<std::vector<double>>& co
     if (first.size() > 1) {
       std::string_view step = first[1];
       const std::optional<double> dt = take_number(step);
+      if (dt) checked_step(*dt, row);
       if (dt && channel.dt && *dt != *channel.dt)
         refuse_line(row, "states another time step than line " + std::to_string(heading.size_line + 1) + ": " +
                              quote(first[1]));
@@ -254,6 +361,7 @@ std::vector<Channel> read_table(const Lines& lines) {
   for (std::size_t i = 0; i < rows; ++i)
     if (is_damaged_row(lines[i])) refuse_line(i, "expected finite numbers, got " + quote(lines[i]));
   const bool commas = has_decimal_commas(lines, rows);
+  if (commas) refuse_thousands(lines, rows);
 
   std::vector<std::string_view> fields;
   std::string with_points;
@@ -298,7 +406,18 @@ std::vector<Channel> read_table(const Lines& lines) {
     take(rows);
   }
   const std::size_t columns = fields.size();
-  const Heading heading = heading_of(lines, top, columns);
+  Heading heading = heading_of(lines, top, columns);
+  // A title of as many words as there are columns is no line of labels: the first column plainly holds times.
+  if (columns > 1 && !heading.labels.empty() && heading.labels[0].is_unclear() && !heading.has_times()) {
+    std::vector<double> begin;
+    Resolution printed;
+    for (std::size_t i = next(rows); i < lines.size() && begin.size() < 20; i = next(i + 1)) {
+      std::string_view rest = fields[0];
+      begin.push_back(take_number(rest).value_or(-1));
+      printed.add(fields[0]);
+    }
+    if (first_column(begin, printed) == First::times) heading.labels.clear();
+  }
   Columns roles = columns_of(heading, columns);
 
   const auto hint = [&] {
@@ -306,11 +425,12 @@ std::vector<Channel> read_table(const Lines& lines) {
   };
   std::vector<bool> used(columns, heading.labels.empty());
   for (const std::size_t k : roles.acceleration) used[k] = true;
+  for (const std::size_t k : roles.other_times) used[k] = true;
   if (roles.time) used[*roles.time] = true;
   const std::size_t clock = roles.time.value_or(0);
   std::vector<std::vector<double>> values(columns);
   Resolution resolution;
-  std::size_t count = 0;
+  std::size_t count = 0, hole = 0;  // an empty line between numbers
   for (std::size_t i = next(rows), after; i < lines.size(); i = after, ++count) {
     const bool is_short = fields.size() < columns;
     for (std::size_t k = 0; k < std::min(columns, fields.size()); ++k) {
@@ -324,6 +444,8 @@ std::vector<Channel> read_table(const Lines& lines) {
     if (clock < fields.size() && columns > 1) resolution.add(fields[clock]);
     const std::size_t got = fields.size();
     after = next(i + 1);
+    for (std::size_t line = i + 1; line < after && after < lines.size() && hole == 0; ++line)
+      if (!is_comment(lines[line])) hole = line;
     if (got > columns || (is_short && (after < lines.size() || !heading.labels.empty() || count < 2)))
       refuse_line(i, "expected " + std::to_string(columns) + (columns == 1 ? " column" : " columns") + " as in line " +
                          std::to_string(rows + 1) + ", got " + std::to_string(got) + " in " + quote(lines[i]) + hint());
@@ -331,10 +453,11 @@ std::vector<Channel> read_table(const Lines& lines) {
   }
 
   const bool ragged = values.back().size() < values.front().size();
-  const First first = heading.labels.empty() && columns > 1 && counts.empty() && !ragged
-                          ? first_column(values[0], resolution)
-                          : First::acceleration;
-  if (heading.labels.empty()) {
+  const First first = columns > 1 && !roles.time && !ragged && !values[0].empty() ? first_column(values[0], resolution)
+                                                                                  : First::acceleration;
+  if (hole > 0 && !roles.time && first != First::times && (columns == 1 || !heading.labels.empty()))
+    refuse_line(hole, "an empty line between numbers: a sample may be missing");
+  if (heading.labels.empty() && !roles.time) {
     if (first == First::acceleration) {
       // Two rows at least say whether columns are components.
       if (columns > 1 && values[0].size() > 2 && variation_ratio(values) > 1)
@@ -347,9 +470,9 @@ std::vector<Channel> read_table(const Lines& lines) {
     }
     if (first == First::times) roles.time = 0;
     roles.acceleration.erase(roles.acceleration.begin());
-  } else if (const Label& label = heading.labels[0]; roles.acceleration.size() > 1 && roles.acceleration[0] == 0 &&
-                                                     label.quantity == Quantity::unknown && label.unit.empty() &&
-                                                     counts_rows(values[0])) {
+  } else if (const Label label = heading.labels.empty() ? Label() : heading.labels[0];
+             roles.acceleration.size() > 1 && roles.acceleration[0] == 0 && label.quantity == Quantity::unknown &&
+             label.unit.empty() && counts_rows(values[0])) {
     roles.acceleration.erase(roles.acceleration.begin());
   }
   if (count < 2) refuse_line(rows, "at least two rows of numbers are needed, got 1" + hint());
@@ -359,16 +482,17 @@ std::vector<Channel> read_table(const Lines& lines) {
     if (!heading.labels.empty()) {
       const Label& label = heading.labels[k];
       channel.label = label.text;
-      channel.orientation = orientation_in(label.name);
+      channel.orientation = label.direction;
       channel.units = label.unit;
       if (roles.acceleration.size() > 1) channel.name = label.name;
       if (!channel.name.empty()) channel.title = joined({heading.title, channel.name});
       if (heading.title.empty()) channel.title.clear();
     }
+    if (channel.orientation.empty() && roles.acceleration.size() == 1) channel.orientation = heading.direction;
     const std::string unit = heading.units.empty()       ? std::string()
                              : heading.units.size() == 1 ? heading.units[0]
                                                          : heading.units[k];
-    if (!unit.empty() && !channel.units.empty() && !same(unit, channel.units))
+    if (!unit.empty() && !channel.units.empty() && !is_same_unit(unit, channel.units))
       refuse_line(heading.units_line, "states the unit " + quote(unit) + ", but the label of column " +
                                           std::to_string(k + 1) + " states " + quote(channel.units));
     const auto line = [](std::size_t index) { return "line " + std::to_string(index + 1); };
@@ -383,6 +507,10 @@ std::vector<Channel> read_table(const Lines& lines) {
     refuse_line(heading.size_line, "states " + detail::shortest(*heading.size.samples) + " samples, but " +
                                        std::to_string(count) + " rows follow");
   if (!roles.time) return channels;
+  for (const std::size_t k : roles.other_times)
+    if (values[k] != values[*roles.time])
+      refuse_line(heading.line, "columns " + std::to_string(*roles.time + 1) + " and " + std::to_string(k + 1) +
+                                    " are times that differ: one file for each record is needed");
   std::vector<double> times = std::move(values[*roles.time]), units = resolution.units();
   for (double& t : times) t *= roles.seconds;
   for (double& u : units) u *= roles.seconds;

@@ -55,7 +55,7 @@ std::string first_word(std::string_view text);
 /// What is wrong with a line of a file.
 class BadLine : public std::invalid_argument {
  public:
-  BadLine(std::size_t index, const std::string& message) : std::invalid_argument(message), index(index) {}
+  BadLine(std::size_t line, const std::string& message) : std::invalid_argument(message), index(line) {}
 
   std::size_t index;
 };

@@ -33,10 +33,13 @@ std::string plain(std::string_view name) {
   constexpr std::size_t longest = 32;  // the names here with room to spare
   std::string unit;
   for (const char c : name)
-    if (!is_blank(c) && unit.size() <= longest) unit += lower(c);
+    if (!is_blank(c) && std::string_view("(){}$").find(c) == std::string_view::npos && unit.size() <= longest)
+      unit += lower(c);
   if (unit.size() > longest) return {};
   for (const auto& [variant, plain] : {std::pair<std::string_view, std::string_view>{"\xC2\xB2", "2"},  // superscript 2
                                        {"\xE2\x81\xBB", "-"},                                           // superscript -
+                                       {"\xE2\x8B\x85", ""},                                            // dot operator
+                                       {"\xC2\xA0", ""},                                                // blank
                                        {"\xC2\xB7", ""},                                                // middle dot
                                        {"*s", "s"},
                                        {"sec", "s"},
@@ -70,8 +73,9 @@ AccelerationUnit acceleration_unit_named(std::string_view name) {
 std::optional<double> find_time_unit(std::string_view name) {
   if (is_second(name)) return 1;
   constexpr std::pair<std::string_view, double> units[] = {
-      {"ms", 1e-3}, {"msec", 1e-3}, {"msecs", 1e-3},        {"millisecond", 1e-3}, {"milliseconds", 1e-3},
-      {"us", 1e-6}, {"usec", 1e-6}, {"microseconds", 1e-6}, {"min", 60},           {"minutes", 60}};
+      {"ms", 1e-3},           {"msec", 1e-3},      {"msecs", 1e-3},     {"millisecond", 1e-3}, {"milliseconds", 1e-3},
+      {"us", 1e-6},           {"\xC2\xB5s", 1e-6}, {"\xCE\xBCs", 1e-6}, {"hours", 3600},       {"usec", 1e-6},
+      {"microseconds", 1e-6}, {"min", 60},         {"minutes", 60}};
   for (const auto& [unit, seconds] : units)
     if (same(name, unit)) return seconds;
   return std::nullopt;
