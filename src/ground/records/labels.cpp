@@ -401,7 +401,7 @@ std::vector<Label> labels_in(std::string_view line, std::size_t columns) {
       if (part.size() > 1 && part.front() == '"' && part.back() == '"') part = part.substr(1, part.size() - 2);
       labels.push_back(label_of(part));
     }
-    if (std::ranges::any_of(labels, &Label::is_recognized)) return labels;
+    if (std::ranges::any_of(labels, [](const Label& label) { return label.is_recognized(); })) return labels;
   }
   return {};
 }

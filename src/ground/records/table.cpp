@@ -151,7 +151,9 @@ struct Heading {
   std::size_t size_line = 0;
   std::string title{};
 
-  bool has_times() const { return std::ranges::find(labels, Quantity::time, &Label::quantity) != labels.end(); }
+  bool has_times() const {
+    return std::ranges::any_of(labels, [](const Label& label) { return label.quantity == Quantity::time; });
+  }
 };
 
 /// The direction in a line that states nothing else: `# Component: UP`, `Orientation = vertical`, `# VERTICAL COMPONENT`.
@@ -177,7 +179,8 @@ Heading heading_of(const Lines& lines, std::size_t rows, std::size_t columns) {
     const std::string_view line = trim(lines[i]);
     if (is_ruler(line)) continue;
     if (std::vector<std::string> units = units_in(line, columns); !units.empty()) {
-      if (!heading.units.empty() && !std::ranges::equal(heading.units, units, is_same_unit))
+      const bool as_many = heading.units.size() == units.size();
+      if (!heading.units.empty() && !(as_many && std::ranges::equal(heading.units, units, is_same_unit)))
         refuse_line(i, "states other units than line " + std::to_string(heading.units_line + 1) + ": " + quote(line));
       heading.units = std::move(units);
       heading.units_line = i;
@@ -276,7 +279,7 @@ First first_column(const std::vector<double>& values, const Resolution& printed)
   constexpr double shortest = 0.0005, longest = 0.1;  // steps of records [s]
   if (counts_rows(values)) return First::row_numbers;
   Channel even;
-  if (!std::ranges::is_sorted(values, std::less_equal<>())) return First::acceleration;
+  if (!std::is_sorted(values.begin(), values.end(), std::less_equal<>())) return First::acceleration;
   set_times(even, values, printed.units());
   const bool is_time = even.dt && *even.dt >= shortest * (1 - 1e-9) && *even.dt <= longest * (1 + 1e-9) &&
                        std::abs(values[0]) <= 10 * *even.dt;

@@ -59,7 +59,8 @@ std::string plain(std::string_view name) {
 
 std::optional<AccelerationUnit> find_acceleration_unit(std::string_view name) {
   const std::string unit = plain(name);
-  const auto* const found = std::ranges::find(accelerations, unit, &AccelerationUnit::name);
+  const auto* const found =
+      std::ranges::find_if(accelerations, [&](const AccelerationUnit& one) { return one.name == unit; });
   return found == std::end(accelerations) ? std::nullopt : std::optional(*found);
 }
 
