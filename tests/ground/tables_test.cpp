@@ -199,6 +199,11 @@ TEST_CASE("numbers in reading order are one record", "[records]") {
     is_the_record(read("# dt = 0.01 s\n" + text, {.units = "m/s^2"}));
     is_the_record(read("NPTS= 200, DT= .01 SEC\n" + text, {.units = "m/s^2"}));
     is_the_record(read("# Sampling rate (Hz): 100\n# units: m/s^2\n" + text));
+    for (const char* size : {"NPTS=200 DT=0.01", "200 0.01 NPTS, DT", "dt,0.01", "Fs,100", "dt (s),0.01", "# DT 0.01",
+                             "Sampling freq.: 100 Hz", "Number of data points: 200, dt = 10 ms", "NPTS=200; DT=0.01"}) {
+      CAPTURE(size);
+      is_the_record(read(size + ("\n" + text), {.units = "m/s^2"}));
+    }
     if (columns != 2) is_the_record(read("200 0.01\n" + text, {.units = "m/s^2"}));
     for (const char* counts : {"1000\n", "199\n", "# NPTS = 201\n"})
       CHECK_THAT(refusal(counts + text, given),
@@ -354,6 +359,9 @@ TEST_CASE("titles and counts stand above numbers", "[records]") {
   for (int i = 0; i < count; ++i) column += print("%.7f\n", sample(i));
   for (const char* remark : {"# Peak acceleration (g): 0.28", "# Force balance accelerometer", "# up to 25 Hz"})
     is_the_record(read(remark + ("\n" + column), {.units = "m/s^2", .dt = 0.01}));
+  is_the_record(read("200 0.01\n" + rows(" ", seconds), {.units = "m/s^2"}));
+  CHECK_THAT(refusal("199 0.01\n" + rows(" ", seconds), {.units = "m/s^2"}),
+             ContainsSubstring("line 1: states 199 samples"));
   std::string gal;
   for (int i = 0; i < count; ++i) gal += print("%.0f\n", 100 * sample(i));
   for (const char* number : {"200\n", "200.\n", "2.0E+02\n", "+200\n", "200\n0.01\n"})

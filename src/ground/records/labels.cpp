@@ -4,6 +4,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <iterator>
+#include <span>
 #include <utility>
 
 #include "ground/records/units.hpp"
@@ -266,7 +267,7 @@ std::optional<Quotient> value_of(std::string_view text) {
     unit = std::string(trim(text.substr(1, close - 1)));
     text = trim(text.substr(close + 1));
   }
-  if (text.starts_with('=') || text.starts_with(':')) text = trim(text.substr(1));
+  if (!text.empty() && std::string_view("=:,;").find(text[0]) != std::string_view::npos) text = trim(text.substr(1));
   const std::optional<double> value = take_number(text);
   if (!value) return std::nullopt;
   text = trim(text);
@@ -470,45 +471,77 @@ std::vector<std::string> units_in(std::string_view line, std::size_t columns) {
   return {};
 }
 
+namespace {
+
+constexpr std::string_view step_keys[] = {
+    "dt",        "delta t",           "delta_t",         "delta",           "time step",     "timestep",
+    "time_step", "sampling interval", "sample interval", "sampling period", "time interval", "time increment"};
+constexpr std::string_view rate_keys[] = {"sampling rate", "sample rate", "sampling frequency", "sampling freq",
+                                          "samplerate",    "fs",          "abtastrate"};
+constexpr std::string_view count_keys[] = {
+    "npts",   "np", "number of points", "number of samples", "number of data points", "number of data", "samples",
+    "points", "n"};
+
+/// What follows one of the keys and a mark, or, if it is all of the text, a number.
+std::optional<Quotient> value_after(std::string_view text, std::span<const std::string_view> keys) {
+  for (const std::string_view key : keys) {
+    if (!same(text.substr(0, key.size()), key)) continue;
+    std::string_view rest = text.substr(key.size());
+    if (rest.starts_with('.')) rest.remove_prefix(1);
+    rest = trim(rest);
+    if (rest.empty()) continue;
+    if (rest[0] == ',' || rest[0] == ';') rest = trim(rest.substr(1));  // of a table with two columns
+    if (std::string_view("=:([").find(rest[0]) != std::string_view::npos || is_digit(rest[0]) || rest[0] == '.')
+      if (const auto value = value_of(rest)) return value;
+  }
+  return std::nullopt;
+}
+
+/// Adds what a text states to a size. Returns whether it states anything, and nothing else.
+bool add_statement(Size& size, std::string_view text) {
+  if (const auto step = value_after(text, step_keys)) {
+    const std::optional<double> seconds = step->unit.empty() ? 1 : find_time_unit(step->unit);
+    if (seconds) size.dt = step->value * *seconds;
+    return seconds.has_value();
+  }
+  if (const auto rate = value_after(text, rate_keys)) {
+    size.dt = 1 / rate->value;
+    return rate->value > 0 && (rate->unit.empty() || is_one_of(rate->unit, {"hz", "1/s", "sps", "samples/s",
+                                                                            "samples/sec", "samples per second"}));
+  }
+  if (const auto count = value_after(text, count_keys)) {
+    size.samples = count->value;
+    return count->unit.empty();
+  }
+  return false;
+}
+
+}  // namespace
+
 std::optional<Size> size_in(std::string_view line) {
   line = without_mark(line);
   Size size;
-  bool known = false;
-  while (!line.empty()) {
-    std::size_t end = line.find_first_of(",;");
-    const std::string_view part = trim(line.substr(0, end));
-    line = end == std::string_view::npos ? std::string_view() : trim(line.substr(end + 1));
-    if (part.empty()) continue;
-    const auto value_after = [&](Texts keys) -> std::optional<Quotient> {
-      for (const std::string_view key : keys) {
-        if (!same(part.substr(0, key.size()), key)) continue;
-        const std::string_view rest = trim(part.substr(key.size()));
-        if (!rest.empty() && (rest[0] == '=' || rest[0] == ':' || rest[0] == '(' || rest[0] == '['))
-          return value_of(rest);
-      }
-      return std::nullopt;
-    };
-    if (const auto step =
-            value_after({"dt", "delta t", "delta_t", "time step", "timestep", "time_step", "sampling interval",
-                         "sample interval", "sampling period", "time interval", "time increment"})) {
-      const std::optional<double> seconds = step->unit.empty() ? 1 : find_time_unit(step->unit);
-      if (!seconds) return std::nullopt;
-      size.dt = step->value * *seconds;
-    } else if (const auto rate =
-                   value_after({"sampling rate", "sample rate", "sampling frequency", "samplerate", "fs"})) {
-      if (!rate->unit.empty() &&
-          !is_one_of(rate->unit, {"hz", "1/s", "sps", "samples/s", "samples/sec", "samples per second"}))
-        return std::nullopt;
-      size.dt = 1 / rate->value;
-    } else if (const auto count = value_after({"npts", "np", "number of points", "number of samples", "number of data",
-                                               "samples", "points", "n"})) {
-      size.samples = count->value;
-    } else {
-      return std::nullopt;
-    }
-    known = true;
+  if (add_statement(size, line)) return size;
+  // `200 0.01 NPTS, DT` of the first files of PEER
+  std::string_view rest = line;
+  if (const std::optional<double> count = take_number(rest)) {
+    rest = after_separator(rest);
+    const std::optional<double> dt = take_number(rest);
+    rest = after_separator(rest);
+    if (dt && same(rest.substr(0, 4), "npts") && has(rest, "dt")) return Size{dt, count};
+    return std::nullopt;
   }
-  return known ? std::optional(size) : std::nullopt;
+  // Several statements, which commas or semicolons separate, or blanks before the next one with its mark.
+  for (std::size_t begin = 0, at = 0; at <= line.size(); ++at) {
+    const bool mark = at == line.size() || line[at] == ',' || line[at] == ';';
+    const bool blank = !mark && is_blank(line[at]) && at > begin && is_digit(line[at - 1]) &&
+                       line.find('=', at) != std::string_view::npos;
+    if (!mark && !blank) continue;
+    const std::string_view part = trim(line.substr(begin, at - begin));
+    begin = at + 1;
+    if (!part.empty() && !add_statement(size, part)) return std::nullopt;
+  }
+  return size.dt || size.samples ? std::optional(size) : std::nullopt;
 }
 
 }  // namespace stickslip::records

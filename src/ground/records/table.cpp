@@ -63,7 +63,8 @@ std::size_t first_row(const Lines& lines) {
   std::size_t row = find(0);
   while (row < lines.size() && has_word(lines[row])) {
     const std::size_t next = find(row + 1);
-    if (next == lines.size() || next == row + 1) break;  // rows with words among their numbers are damaged
+    if (next == lines.size() || (next == row + 1 && !size_in(lines[row])))
+      break;  // rows with words among their numbers are damaged
     row = next;
   }
   return row;
@@ -398,7 +399,11 @@ std::vector<Channel> read_table(const Lines& lines) {
   if (const std::vector<std::string> first(fields.begin(), fields.end());
       first.size() <= 2 && is_whole(first[0]) && first[0].size() > 1) {
     const std::size_t second = next(rows + 1);
-    const bool alone = first.size() == 2 && second < lines.size() && fields.size() != 2;
+    // `200 0.01` above numbers in other lines, or above times from zero.
+    std::string_view clock = second < lines.size() ? fields[0] : std::string_view();
+    const std::optional<double> begin = take_number(clock);
+    const bool alone = first.size() == 2 && second < lines.size() &&
+                       (fields.size() != 2 || (begin && std::abs(*begin) < 1 && !is_whole(first[1])));
     bool pointed = first.size() == 1 && second < lines.size();
     for (std::size_t i = second, seen = 0; pointed && i < lines.size() && seen < 100; i = next(i + 1), ++seen)
       pointed = !std::ranges::any_of(fields, is_whole);
@@ -509,6 +514,11 @@ std::vector<Channel> read_table(const Lines& lines) {
   if (heading.size.samples && as_count(*heading.size.samples, heading.size_line, "samples") != count)
     refuse_line(heading.size_line, "states " + detail::shortest(*heading.size.samples) + " samples, but " +
                                        std::to_string(count) + " rows follow");
+  if (!counts.empty()) {
+    std::string_view text = counts[0];
+    if (const double stated = take_number(text).value_or(0); as_count(stated, top, "samples") != count)
+      refuse_line(top, "states " + counts[0] + " samples, but " + std::to_string(count) + " rows follow");
+  }
   if (!roles.time) return channels;
   for (const std::size_t k : roles.other_times)
     if (values[k] != values[*roles.time])
