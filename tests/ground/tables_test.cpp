@@ -367,3 +367,12 @@ TEST_CASE("titles and counts stand above numbers", "[records]") {
   for (const char* number : {"200\n", "200.\n", "2.0E+02\n", "+200\n", "200\n0.01\n"})
     CHECK(read(number + gal, {.units = "gal", .dt = 0.01}).samples() == count);
 }
+
+TEST_CASE("long headings are read in time", "[records]") {
+  for (const char* part : {"x1 ", "a=1 ", "dt = 1,", "g ", "N-", "(g) ", "up_", "\"a\","}) {
+    std::string line;
+    while (line.size() < 300'000) line += part;
+    CHECK(refusal(line + "\n0,1\n.1,2\n").size() < 400);
+    CHECK(refusal("Time (s),Acc (g)\n0,1\n.1,2\n# " + line + "\n") == "accepted");
+  }
+}

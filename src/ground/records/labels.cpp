@@ -532,10 +532,10 @@ std::optional<Size> size_in(std::string_view line) {
     return std::nullopt;
   }
   // Several statements, which commas or semicolons separate, or blanks before the next one with its mark.
+  const std::size_t last = line.rfind('=');  // npos + 1 is 0
   for (std::size_t begin = 0, at = 0; at <= line.size(); ++at) {
     const bool mark = at == line.size() || line[at] == ',' || line[at] == ';';
-    const bool blank = !mark && is_blank(line[at]) && at > begin && is_digit(line[at - 1]) &&
-                       line.find('=', at) != std::string_view::npos;
+    const bool blank = !mark && is_blank(line[at]) && at > begin && is_digit(line[at - 1]) && at < last + 1;
     if (!mark && !blank) continue;
     const std::string_view part = trim(line.substr(begin, at - begin));
     begin = at + 1;
