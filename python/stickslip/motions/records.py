@@ -394,7 +394,7 @@ def _parsed(
 
 
 def _is_of_an_agency(content: bytes) -> bool:
-    """Whether a file has a format of its own: those of columns accept any file with numbers."""
+    """Whether an agency's format explains a file; columns of numbers, any file may have."""
     known = _core._record_format(content)
     return bool(known and known["reference"])
 

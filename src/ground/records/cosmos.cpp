@@ -3,7 +3,6 @@
 #include "ground/records/formats.hpp"
 #include "ground/records/reader.hpp"
 
-#include <charconv>
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
@@ -18,14 +17,8 @@ namespace {
 
 constexpr double unknown = -999;
 
-/// Number of columns in a Fortran format such as `Format=(8F10.5)`, or 0.
-std::size_t stated_width(std::string_view line) {
-  std::string_view rest = after(after(line, "Format="), "(");
-  while (!rest.empty() && is_digit(rest[0])) rest.remove_prefix(1);
-  std::size_t width = 0;
-  if (!rest.empty()) std::from_chars(rest.data() + 1, rest.data() + rest.size(), width);
-  return width;
-}
+/// Number of columns in `Format=(8F10.5)`, or 0.
+std::size_t stated_width(std::string_view line) { return fortran_width(after(after(line, "Format="), "(")); }
 
 /// The number at the start of a line such as `100 Real-header values follow on 20 lines`.
 std::size_t leading_count(const Reader& reader, std::string_view line, const std::string& what) {

@@ -10,7 +10,6 @@
 #include "ground/records/reader.hpp"
 #include "ground/records/times.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -36,15 +35,10 @@ bool is_size(std::string_view line) {
   return take_number(rest) && has(rest, "points") && (has(rest, "spaced at") || has(rest, "points at"));
 }
 
-/// Number of columns in a Fortran format such as `(8f10.6)`, or 0.
+/// Number of columns in the last brackets of a line, as in `(8f10.6)`, or 0.
 std::size_t stated_width(std::string_view line) {
   const std::size_t open = line.rfind('(');
-  std::string_view rest = open == std::string_view::npos ? std::string_view() : line.substr(open + 1);
-  while (!rest.empty() && is_digit(rest[0])) rest.remove_prefix(1);
-  if (rest.empty() || lower(rest[0]) != 'f') return 0;
-  std::size_t width = 0;
-  std::from_chars(rest.data() + 1, rest.data() + rest.size(), width);
-  return width;
+  return open == std::string_view::npos ? 0 : fortran_width(line.substr(open + 1));
 }
 
 /// The unit in `... in cm/sec2. (8f10.6)`, `IN UNITS CM/SEC/SEC`, `(UNITS: CM/SEC/SEC)`, `UNITS ARE SEC AND G/10`,

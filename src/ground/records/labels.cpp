@@ -46,6 +46,15 @@ bool begins_with(std::string_view word, std::string_view beginning) {
   return beginning.size() < 4 ? same(word, beginning) : same(word.substr(0, beginning.size()), beginning);
 }
 
+/// What one of the words names, or nothing.
+std::string named(const std::vector<std::string_view>& words, std::span<const Words> all) {
+  for (const Words& one : all)
+    for (const std::string_view word : words)
+      for (const std::string_view beginning : one.beginnings)
+        if (begins_with(word, beginning)) return std::string(one.what);
+  return {};
+}
+
 /// What words name that is no history of acceleration, even where their unit is one of acceleration.
 std::string kind_of_value(const std::vector<std::string_view>& words) {
   static const Words all[] = {
@@ -61,11 +70,7 @@ std::string kind_of_value(const std::vector<std::string_view>& words) {
        {"pseudo", "std", "error", "integral", "integrated", "cumulative", "cum", "squared", "abs", "log", "ln"}},
       {"a rotation", {"angular", "rotational"}},
   };
-  for (const Words& one : all)
-    for (const std::string_view word : words)
-      for (const std::string_view beginning : one.beginnings)
-        if (begins_with(word, beginning)) return std::string(one.what);
-  return {};
+  return named(words, all);
 }
 
 /// What words name that is no acceleration, unless they stand beside that word.
@@ -82,15 +87,11 @@ std::string other_quantity(const std::vector<std::string_view>& words) {
       {"a force", {"force", "shear", "kraft", "load", "stress", "strain", "pressure", "moment"}},
       {"a rotation", {"angle", "rotat", "tilt", "gyro", "omega", "roll", "pitch", "yaw"}},
       {"a measure of intensity", {"arias", "cav", "intensity", "energy", "magnitude", "ia"}},
-      {"a statement of errors", {"std", "sigma", "error", "noise"}},
+      {"a statement of errors", {"sigma", "noise"}},
       {"a place", {"lat", "lon", "latitude", "longitude", "depth", "elevation"}},
-      {"another derivative", {"jerk", "integral", "log"}},
+      {"another derivative", {"jerk"}},
   };
-  for (const Words& one : all)
-    for (const std::string_view word : words)
-      for (const std::string_view beginning : one.beginnings)
-        if (begins_with(word, beginning)) return std::string(one.what);
-  return {};
+  return named(words, all);
 }
 
 bool is_acceleration_word(std::string_view word) {
@@ -248,9 +249,8 @@ void take_unit_at_end(Label& label) {
 bool is_multiplied(std::string_view label) {
   for (const std::string_view word : words_of(label))
     if (is_one_of(word, {"milli", "micro", "kilo", "percent", "pct"})) return true;
-  return label.find('*') != std::string_view::npos && label.find("**") == std::string_view::npos
-             ? true
-             : has(label, " x 1") || has(label, "1e-") || has(label, "1e+") || has(label, "0.0") || has(label, "/ 1");
+  const bool star = label.find('*') != std::string_view::npos && label.find("**") == std::string_view::npos;
+  return star || has(label, " x 1") || has(label, "1e-") || has(label, "1e+") || has(label, "0.0") || has(label, "/ 1");
 }
 
 /// The number, and the unit after it or in brackets before it, in `(s) = 0.01`, `= .01 SEC,`; nothing if there is more.
@@ -323,38 +323,26 @@ Label label_of(std::string_view text) {
 void split_row(std::string_view row, std::vector<std::string_view>& fields) {
   fields.clear();
   row = trim(row);
-  for (std::size_t begin = 0, at = 0;; ++at) {
-    if (at < row.size() && row[at] == '"' && at == begin) {  // up to the other quotation mark
-      const std::size_t close = row.find('"', at + 1);
-      if (close != std::string_view::npos) {
-        begin = at + 1;
-        at = close;
-        fields.push_back(trim(row.substr(begin, at - begin)));
-        if (++at >= row.size()) return;
-        if (is_separator(row[at])) {
-          bool mark = !is_blank(row[at]);
-          while (at + 1 < row.size() && (is_blank(row[at + 1]) || (!mark && is_separator(row[at + 1])))) {
-            ++at;
-            mark = mark || !is_blank(row[at]);
-          }
-          begin = at + 1;
-          if (begin == row.size() && mark) fields.push_back({});
-          if (begin == row.size()) return;
-          continue;
-        }
-        begin = at;
-        continue;
-      }
-    }
-    if (at < row.size() && !is_separator(row[at])) continue;
-    fields.push_back(row.substr(begin, at - begin));
-    if (at == row.size()) return;
-    bool mark = !is_blank(row[at]);
-    while (at + 1 < row.size() && (is_blank(row[at + 1]) || (!mark && is_separator(row[at + 1])))) {
-      ++at;
+  /// Behind a separator; `mark` tells whether it is a comma or semicolon, with the blanks around it.
+  const auto after_separators = [row](std::size_t at, bool& mark) {
+    mark = !is_blank(row[at]);
+    while (++at < row.size() && (is_blank(row[at]) || (!mark && is_separator(row[at]))))
       mark = mark || !is_blank(row[at]);
-    }
-    begin = at + 1;
+    return at;
+  };
+  bool separated = true;  // only there a quotation mark opens a field
+  for (std::size_t begin = 0;;) {
+    const bool opens = separated && begin < row.size() && row[begin] == '"';
+    const std::size_t close = opens ? row.find('"', begin + 1) : std::string_view::npos;
+    const bool quoted = close != std::string_view::npos;
+    std::size_t end = quoted ? close + 1 : begin;
+    while (!quoted && end < row.size() && !is_separator(row[end])) ++end;
+    fields.push_back(quoted ? trim(row.substr(begin + 1, close - begin - 1)) : row.substr(begin, end - begin));
+    if (end == row.size()) return;
+    bool mark = true;
+    separated = is_separator(row[end]);
+    begin = separated ? after_separators(end, mark) : end;
+    if (quoted && begin == row.size() && !mark) return;
   }
 }
 

@@ -265,6 +265,14 @@ RecordComponent component_of(Channel channel, const std::string& name, const std
           std::move(sources)};
 }
 
+/// Removes the blank lines at the top. Returns how many there were.
+std::size_t drop_blank_lines(Lines& lines) {
+  const auto first = std::ranges::find_if(lines, [](std::string_view line) { return !trim(line).empty(); });
+  const auto blank = static_cast<std::size_t>(first - lines.begin());
+  lines.erase(lines.begin(), first);
+  return blank;
+}
+
 /// The channels of a file whose first lines were blank.
 std::vector<Channel> read(const Format& format, const Lines& lines, std::size_t blank) {
   try {
@@ -280,10 +288,7 @@ std::vector<RecordComponent> parse(std::string content, const std::string& file,
   try {
     const std::string text = decoded(std::move(content));
     Lines lines = split(text);
-    const auto is_written = [](std::string_view line) { return !trim(line).empty(); };
-    const auto first = std::ranges::find_if(lines, is_written);
-    const auto blank = static_cast<std::size_t>(first - lines.begin());
-    lines.erase(lines.begin(), first);
+    const std::size_t blank = drop_blank_lines(lines);
     const Format& format = recognize(lines);
     std::vector<Channel> channels = read(format, lines, blank);
     const bool alone = channels.size() == 1;
@@ -308,10 +313,7 @@ std::optional<RecordFormat> record_format(std::string_view content) {
   try {
     const std::string text = decoded(std::string(content));
     Lines lines = split(text);
-    std::erase_if(lines, [written = false](std::string_view line) mutable {
-      written = written || !trim(line).empty();
-      return !written;
-    });
+    drop_blank_lines(lines);
     return recognize(lines).about;
   } catch (const std::invalid_argument&) {
     return std::nullopt;

@@ -1,7 +1,6 @@
 #include "ground/records/rows.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 
@@ -41,15 +40,6 @@ bool is_text(std::string_view line) {
   const std::string_view word = line.substr(0, line.find_first_of(" \t,;"));
   if (same(word, "nan") || same(word, "inf") || same(word, "infinity")) return false;
   return line.empty() || (lower(line[0]) >= 'a' && lower(line[0]) <= 'z');
-}
-
-std::size_t fortran_width(std::string_view format) {
-  std::string_view rest = trim(format);
-  while (!rest.empty() && is_digit(rest[0])) rest.remove_prefix(1);
-  std::size_t width = 0;
-  if (!rest.empty() && (lower(rest[0]) == 'f' || lower(rest[0]) == 'e'))
-    std::from_chars(rest.data() + 1, rest.data() + rest.size(), width);
-  return width;
 }
 
 double printed_step(const Rows& rows, const Lines& lines) {

@@ -29,9 +29,6 @@ Rows read_rows(Reader& reader, std::size_t columns, std::size_t width = 0);
 /// Whether a line is text: it is blank or starts with a letter that does not belong to a number.
 bool is_text(std::string_view line);
 
-/// Width of a column in a Fortran format such as `4F10.3`, or 0.
-std::size_t fortran_width(std::string_view format);
-
 /// The step of the times in the first column, which must be even to their printed precision: see `set_times`.
 double printed_step(const Rows& rows, const Lines& lines);
 

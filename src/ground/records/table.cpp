@@ -94,7 +94,6 @@ bool has_decimal_commas(const Lines& lines, std::size_t rows) {
 void refuse_thousands(const Lines& lines, std::size_t rows) {
   std::size_t example = lines.size();
   bool without = false;
-  std::vector<std::string_view> fields;
   for (std::size_t i = rows; i < lines.size(); ++i) {
     if (is_comment(lines[i])) continue;
     std::string_view row = trim(lines[i]);
@@ -138,7 +137,7 @@ bool is_whole(std::string_view token) {
 
 bool is_same_unit(std::string_view a, std::string_view b) {
   const auto one = find_acceleration_unit(a), other = find_acceleration_unit(b);
-  return one && other ? one->name == other->name || acceleration_unit(a) == acceleration_unit(b) : same(a, b);
+  return one && other ? one->value == other->value : same(a, b);
 }
 
 /// What stands above the rows.

@@ -1,9 +1,9 @@
 #include "ground/records/text.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <stdexcept>
 
 #include "base/read_number.hpp"
@@ -115,46 +115,8 @@ std::string first_word(std::string_view text) {
 
 void refuse_line(std::size_t index, const std::string& message) { throw BadLine(index, message); }
 
-/// Takes a number whose digits make a whole number of at most 2^53 and whose power of ten is at most 22 in magnitude: the
-/// product or quotient of the two is then correctly rounded (see `read_short_number`). One pass over the digits; nothing
-/// for other numbers, and where a sign follows, which may begin an exponent or another number.
-static std::optional<double> take_short_number(std::string_view& text) {
-  static constexpr double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
-                                      1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-  const char *at = text.data(), *const end = at + text.size();
-  const bool negative = at < end && *at == '-';
-  if (at < end && is_sign(*at)) ++at;
-  std::uint64_t mantissa = 0;
-  const char* const whole = at;
-  for (; at < end && is_digit(*at); ++at) mantissa = 10 * mantissa + static_cast<std::uint64_t>(*at - '0');
-  std::ptrdiff_t digits = at - whole, power = 0;
-  if (at < end && *at == '.') {
-    const char* const places = ++at;
-    for (; at < end && is_digit(*at); ++at) mantissa = 10 * mantissa + static_cast<std::uint64_t>(*at - '0');
-    power = places - at;
-    digits += at - places;
-  }
-  if (digits == 0 || digits > 18 || mantissa > std::uint64_t{1} << 53 || (at < end && is_sign(*at)))
-    return std::nullopt;
-  if (at < end && (lower(*at) == 'e' || lower(*at) == 'd')) {
-    ++at;
-    const bool down = at < end && *at == '-';
-    if (at < end && is_sign(*at)) ++at;
-    const char* const figures = at;
-    std::ptrdiff_t exponent = 0;
-    for (; at < end && is_digit(*at) && at - figures < 4; ++at) exponent = 10 * exponent + (*at - '0');
-    if (at == figures || (at < end && is_digit(*at))) return std::nullopt;
-    power += down ? -exponent : exponent;
-  }
-  if (power < -22 || power > 22) return std::nullopt;
-  const auto value = static_cast<double>(mantissa);
-  const double result = power < 0 ? value / powers[-power] : value * powers[power];
-  text.remove_prefix(static_cast<std::size_t>(at - text.data()));
-  return negative ? -result : result;
-}
-
 std::optional<double> take_number(std::string_view& text) {
-  if (const std::optional<double> number = take_short_number(text)) return number;
+  if (const std::optional<double> number = detail::take_short_number(text)) return number;
   const Numeral numeral(text);
   std::string_view token = text.substr(0, numeral.end);
   std::string standard;
@@ -243,6 +205,15 @@ std::optional<double> labeled_number(std::string_view line, std::string_view lab
     return rest.starts_with('.') || (!rest.empty() && is_sign(rest[0])) ? std::nullopt : value;
   }
   return std::nullopt;
+}
+
+std::size_t fortran_width(std::string_view format) {
+  std::string_view rest = trim(format);
+  while (!rest.empty() && is_digit(rest[0])) rest.remove_prefix(1);
+  std::size_t width = 0;
+  if (!rest.empty() && std::string_view("feig").find(lower(rest[0])) != std::string_view::npos)
+    std::from_chars(rest.data() + 1, rest.data() + rest.size(), width);
+  return width;
 }
 
 bool ends_cut_off(std::string_view line) {

@@ -111,6 +111,9 @@ std::string_view append_numbers(std::vector<double>& values, std::string_view li
 /// The number after a label, as in `DT= .01`, or nothing; `rest` becomes what follows it.
 std::optional<double> labeled_number(std::string_view line, std::string_view label, std::string_view& rest);
 
+/// Width of a column in a Fortran format such as `8F10.6`, or 0.
+std::size_t fortran_width(std::string_view format);
+
 /// Whether the last number of a line has a shorter exponent than the others, two or more, or none: the line was cut.
 bool ends_cut_off(std::string_view line);
 
