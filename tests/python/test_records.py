@@ -178,8 +178,14 @@ WRONG = {
         "line 5: expected 2 columns .* got 3",
     ),
     "one row": ("t,a\n0.0,0.1\n", "at least two rows"),
-    "times that stand still": (change(CSV, "0.02", "0.01"), r"times\[2\] must come after 0.01 s"),
-    "times that turn back": (change(CSV, "0.03", "0.005"), r"times\[3\] must come after 0.02 s"),
+    "times that stand still": (
+        change(CSV, "0.02", "0.01"),
+        "times must increase, got .* after 0.01",
+    ),
+    "times that turn back": (
+        change(CSV, "0.03", "0.005"),
+        "times must increase, got .* after 0.02",
+    ),
     "unknown units of a column": (change(CSV, "(g's)", "(stone/s2)"), "unknown unit .* 'stone/s2'"),
     "velocity in a column": (change(CSV, "(g's)", "(cm/s)"), "line 2: no column .* a velocity"),
     "no units": ("0.0,0.1\n0.1,0.2\n", 'states no units .* pass units, such as "g"'),
