@@ -582,7 +582,7 @@ std::vector<Channel> read_columns(const Lines& lines, bool run_together) {
   const auto is_negative = [](double value) { return value < 0; };
   const auto has_signs = [&](std::size_t k) { return std::ranges::any_of(values[k], is_negative); };
   if (roles.time && !heading.labels.empty() && heading.labels[*roles.time].name == "T" &&
-      std::ranges::none_of(roles.acceleration, has_signs))
+      !std::ranges::any_of(roles.acceleration, has_signs))
     refuse_line(heading.line,
                 "T may be a period, and no acceleration is negative: if this is an acceleration history"
                 " and no spectrum, label its times t or time");
@@ -627,7 +627,8 @@ std::vector<Channel> read_columns(const Lines& lines, bool run_together) {
       refuse_line(heading.line, "columns " + std::to_string(*roles.time + 1) + " and " + std::to_string(k + 1) +
                                     " are times that differ: one file for each record is needed");
   const std::vector<double>& clocked = values[*roles.time];
-  if (const auto late = std::ranges::adjacent_find(clocked, std::greater_equal<>()); late != clocked.end()) {
+  if (const auto late = std::adjacent_find(clocked.begin(), clocked.end(), std::greater_equal<>());
+      late != clocked.end()) {
     std::size_t line = next(rows);
     for (auto at = clocked.begin(); at <= late; ++at) line = next(line + 1);
     refuse_line(line, "times must increase, got " + quote(fields[*roles.time]) + " after " + detail::shortest(*late));
