@@ -1,6 +1,7 @@
 """Fragility curves: known answers from simulated data, bands, limits, files."""
 
 import csv
+import json
 import math
 import re
 import warnings
@@ -9,9 +10,12 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 import stickslip as ss
+from pages import ROOT, rows_below
 
 stats = pytest.importorskip("scipy.stats")
 optimize = pytest.importorskip("scipy.optimize")
+
+pytestmark = pytest.mark.filterwarnings("ignore:Fragility.*extrapolated")
 
 LEVELS = np.geomspace(0.1, 1.6, 9)
 
@@ -302,8 +306,156 @@ def test_one_level_with_both_outcomes_fixes_no_dispersion():
     assert exceed[:2] == [0, 0]
     assert 0 < exceed[2] < 1
     for method in ("lognormal", "logit"):
-        with pytest.raises(ValueError, match="but for one level at most, so the fit is unbounded"):
+        with pytest.raises(ValueError, match=r"others but at 0.4 g, where 33.3 % do.* or more rec"):
             ss.Fragility.fit(t, im="pga_g", thresholds=0.1, method=method)
+
+
+def test_what_lies_beyond_the_stripes_is_marked(tmp_path):
+    """Medians at 0.28, 0.4 and 0.57 g, in stripes to 0.5 g and to 0.8 g."""
+    t = simulated(1, 400, levels=np.geomspace(0.12, 0.5, 6))
+    with pytest.warns(ss.regressions.RangeWarning) as caught:
+        f = ss.Fragility.fit(t, im="pga_g", thresholds=[0.05, 0.1, 0.2])
+    assert len(caught) == 1
+    text = "extrapolated: median of 0.2 m and HCLPF of 0.05 m outside 0.12 to 0.5 g"
+    assert text in str(caught[0].message)
+    assert text in repr(f)
+    assert f.im_range == (0.12, 0.5)
+    assert f.extrapolated.tolist() == [[False, True], [False, False], [True, False]]
+    assert json.loads(f.to_json())["extrapolated"] == ["hclpf", "", "median"]
+    with f.to_pelicun(tmp_path / "f.csv").open(newline="") as stream:
+        (row,) = csv.DictReader(stream)
+    assert row["Comment"] == text
+    assert text in f.to_openquake(tmp_path / "f.xml").read_text()
+    pytest.importorskip("matplotlib")
+    (axes,) = f.plot(level=None).axes
+    solid = [line for line in axes.get_lines() if line.get_linestyle() == "-"]
+    dashed = [line for line in axes.get_lines() if line.get_linestyle() == "--"]
+    assert (len(solid), len(dashed)) == (3, 7)  # one for the legend
+    for line in solid:
+        assert line.get_xdata()[[0, -1]].tolist() == [0.12, 0.5]
+    for line in dashed:
+        assert (line.get_xdata() <= 0.12).all() or (line.get_xdata() >= 0.5).all()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        f = ss.Fragility.fit(simulated(1, 400), im="pga_g", thresholds=[0.1, 0.2])
+    assert "extrapolated" not in repr(f)
+    assert not f.extrapolated.any()
+
+
+def test_the_page_says_what_stripes_to_3_g_change():
+    """The table of docs/fragility.md, and its shares in the highest stripe."""
+    text = (ROOT / "docs" / "fragility.md").read_text(encoding="utf-8")
+    heading = "| stripes up to | fit | median of 30 cm | its dispersion | its HCLPF |"
+    mu = ss.Random(ss.Coulomb, mu=ss.Lognormal(median=0.3, beta=0.3))
+    levels = [0.1, 0.2, 0.4, 0.8, 1.6, 3]
+    found = []
+    for count, separate in ((4, False), (6, False), (6, True)):
+        t = ss.sweep(
+            mu,
+            ss.sample_records().stripes(pga_g=levels[:count]),
+            members=100,
+            seed=1,
+            settle=True,
+        )
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RuntimeWarning)
+            f = ss.Fragility.fit(t, im="pga_g", thresholds=[0.05, 0.1, 0.3], separate=separate)
+        if count == 4:
+            shares = ", ".join(f"{100 * p:.0f}" for p in f.fractions()[1][:2, -1])
+            assert f"{shares} and {100 * f.fractions()[1][2, -1]:.0f} %" in text
+            assert f.extrapolated[:, 0].all()
+        else:
+            assert not f.extrapolated.any()
+        beyond = ", extrapolated" if f.extrapolated[2, 0] else ""
+        found.append(
+            [
+                f"{levels[count - 1]:g} g",
+                "separate" if separate else "one dispersion",
+                f"{f.median[2]:.3g} g{beyond}",
+                f"{f.beta[2]:.2f}",
+                f"{f.hclpf[2]:.2f} g",
+            ]
+        )
+        if (count, separate) == (6, False):
+            assert f"where it is {f.p_shared:.1g}." in text
+    assert rows_below(text, heading) == found
+
+
+# ---- one dispersion for all thresholds
+
+
+def unequal(seed, betas, records=60, draws=1):
+    """Displacements of 0.05, 0.1 or 0.2 m, above capacities that have these dispersions."""
+    rng = np.random.default_rng(seed)
+    normal = rng.standard_normal(records)
+    medians = 0.3 * 1.6 ** np.arange(len(betas))
+    capacity = [
+        m * np.exp(b * (0.8 * normal + 0.6 * rng.standard_normal(records)))
+        for m, b in zip(medians, betas)
+    ]
+    exceeds = LEVELS[:, np.newaxis] > np.maximum.accumulate(capacity)[:, np.newaxis]
+    d = np.array([0.0, 0.06, 0.12, 0.24])[exceeds.sum(axis=0)]
+    return table_of(np.tile(d.reshape(1, -1, 1), (draws, 1, 1)), LEVELS, records)
+
+
+@pytest.mark.parametrize("method", ["lognormal", "logit"])
+def test_the_likelihood_ratio_is_that_of_two_fits(method):
+    thresholds = [0.05, 0.1, 0.2]
+    t = unequal(3, [0.36, 0.4, 0.44])
+    f = ss.Fragility.fit(t, im="pga_g", thresholds=thresholds, method=method)
+    scale = math.pi / math.sqrt(3)
+    cdf = stats.norm.cdf if method == "lognormal" else lambda u: stats.logistic.cdf(scale * u)
+
+    def least(group):
+        minus = likelihood(t, group, cdf)
+        start = [math.log(0.4), *np.log([0.3, 0.5, 0.8][: len(group)])]
+        return optimize.minimize(minus, start, method="BFGS", options={"gtol": 1e-7}).fun
+
+    ratio = 2 * (least(thresholds) - sum(least([one]) for one in thresholds))
+    assert f._model.likelihood_ratio()[0] == pytest.approx(ratio, abs=1e-6)
+
+
+def test_a_dispersion_that_is_not_shared_is_doubted():
+    with pytest.warns(
+        RuntimeWarning, match=r"share a dispersion of .* contradict it \(p = "
+    ) as caught:
+        f = ss.Fragility.fit(unequal(1, [0.2, 0.6], 400), im="pga_g", thresholds=[0.05, 0.1])
+    assert f.p_shared < 0.01
+    separate = ss.Fragility.fit(
+        unequal(1, [0.2, 0.6], 400), im="pga_g", thresholds=[0.05, 0.1], separate=True
+    )
+    assert math.isnan(separate.p_shared)
+    for label, beta in zip(f.labels, separate.beta):
+        assert f"{label} {beta:.2f}" in str(caught[0].message)
+
+
+def test_equal_dispersions_are_rarely_doubted():
+    # The probability of more than 5 of 100 at 1 % is 5e-4. Draws that are alike add no evidence:
+    # a ratio that took the 20 responses to each record as independent would doubt most.
+    p, naive = [], []
+    for seed in range(100):
+        t = unequal(seed, [0.4, 0.4], 18, draws=20)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            f = ss.Fragility.fit(t, im="pga_g", thresholds=[0.05, 0.1])
+        p.append(f.p_shared)
+        naive.append(stats.chi2.sf(f._model.likelihood_ratio()[0], 1))
+    assert (np.array(p) < 0.01).sum() <= 5
+    assert (np.array(naive) < 0.01).mean() > 0.25
+    assert math.isnan(ss.Fragility.fit(simulated(1), im="pga_g", thresholds=0.1).p_shared)
+
+
+def test_separate_fits_need_two_levels_with_both_outcomes_for_each_threshold():
+    """0.05 m has them, 0.2 m is exceeded in the highest stripe alone, and has none of its own."""
+    t = simulated(2, 40, levels=LEVELS[:6])
+    t.peak[t.peak > 0.15] = 0.15
+    t.peak[0, -3:] = 0.25
+    with pytest.raises(ValueError, match=r"exceed 0.2 m .* where 7.5 % do.*separate=False, which"):
+        ss.Fragility.fit(t, im="pga_g", thresholds=[0.05, 0.2], separate=True)
+    t.peak[0, -43] = 0.25  # one record of the stripe below is enough
+    f = ss.Fragility.fit(t, im="pga_g", thresholds=[0.05, 0.2], separate=True)
+    alone = ss.Fragility.fit(t, im="pga_g", thresholds=0.2)
+    assert f.beta[1] == pytest.approx(alone.beta[0], rel=1e-7)
 
 
 def test_an_intensity_is_a_column_a_short_name_or_a_function():
@@ -425,7 +577,7 @@ def test_a_fragility_is_a_table_and_a_picture():
     pytest.importorskip("matplotlib")
     (axes,) = f.plot(level=None).axes
     assert axes.get_xlabel() == "peak ground acceleration [g]"
-    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["0.05 m", "0.1 m"]
+    assert [text.get_text() for text in axes.get_legend().get_texts()[:2]] == ["0.05 m", "0.1 m"]
 
 
 def test_pelicun_reads_the_curves(tmp_path):

@@ -26,6 +26,20 @@ def measure_label(name: str, unit: str, period: float | None = None) -> str:
     return MEASURES.get(name, name) + at + (f" [{unit}]" if unit else "")
 
 
+def _plot_known(axes: Axes, x: Any, y: Any, known: tuple[float, float], **style: Any) -> None:
+    """A curve, solid at known values of x and dashed beyond them."""
+    low, high = known
+    label = style.pop("label")
+    inside = (x >= low) & (x <= high)
+    axes.plot(x[inside], y[inside], label=label, **style)
+    for beyond in (x <= x[inside][0], x >= x[inside][-1]) if inside.any() else (x == x,):
+        axes.plot(x[beyond], y[beyond], linestyle="--", **style)
+
+
+def _explain_dashes(axes: Axes) -> None:
+    axes.plot([], [], color=GRAY, linestyle="--", label="beyond the ground motions")
+
+
 @overload
 def plot_fragility(
     fragility: Any, *, level: float | None = ..., ax: None = None, title: str | None = ...
@@ -54,7 +68,7 @@ def plot_fragility(
     matplotlib Figure or Axes
         The axes if they were given, otherwise the new figure.
     """
-    im = fragility.grid()
+    im = np.union1d(fragility.grid(), fragility.im_range)
     curves = fragility.probability(im)
     levels, fractions = fragility.fractions()
     bands = None if level is None else fragility.bands(level, im)
@@ -66,9 +80,10 @@ def plot_fragility(
                 axes.fill_between(
                     im, bands.low[i], bands.high[i], color=color, alpha=0.2, linewidth=0
                 )
-            axes.plot(im, curves[i], color=color, label=label)
+            _plot_known(axes, im, curves[i], fragility.im_range, color=color, label=label)
             if len(levels) <= 50:
                 axes.plot(levels, fractions[i], "o", color=color, markersize=4)
+        _explain_dashes(axes)
         axes.set_xscale("log")
         axes.set_ylim(0, 1)
         axes.set_xlabel(measure_label(fragility.im, fragility.im_unit, fragility.im_period))
@@ -108,9 +123,11 @@ def plot_exceedances(
         for i, (label, rate) in enumerate(zip(f.labels, exceedances.rate)):
             color = COLORS[i % len(COLORS)]
             axes.fill_between(middle, parts[i] / rate, color=color, alpha=0.2, linewidth=0)
-            axes.plot(middle, parts[i] / rate, color=color, label=f"{label}: {rate:.2g} per year")
+            name = f"{label}: {rate:.2g} per year"
+            _plot_known(axes, middle, parts[i] / rate, f.im_range, color=color, label=name)
         for end in hazard.im[[0, -1]]:
             axes.axvline(end, color=GRAY, linewidth=0.8, linestyle=":")
+        _explain_dashes(axes)
         axes.set_xscale("log")
         axes.set_ylim(bottom=0)
         axes.set_xlabel(measure_label(f.im, f.im_unit, f.im_period))

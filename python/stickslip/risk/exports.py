@@ -54,6 +54,10 @@ def to_pelicun(fragility: Fragility, path: str | os.PathLike[str], id: str) -> P
     for i, (median, beta) in enumerate(zip(fragility.median, fragility.beta), 1):
         heads += [f"LS{i}-{name}" for name in ("Family", "Theta_0", "Theta_1")]
         row += ["lognormal", repr(float(median)), repr(float(beta))]
+    note = _note(fragility)
+    if note:
+        heads.append("Comment")
+        row.append(f'"{note}"')
     with replacing(path) as stream:
         stream.write(f"{','.join(heads)}\n{','.join(row)}\n".encode())
     return Path(os.fsdecode(path))
@@ -74,7 +78,9 @@ def to_openquake(fragility: Fragility, path: str | os.PathLike[str], id: str) ->
     root = ElementTree.Element("nrml", {"xmlns": _NRML})
     about = {"id": id, "assetCategory": "contents", "lossCategory": "contents"}
     model = ElementTree.SubElement(root, "fragilityModel", about)
-    ElementTree.SubElement(model, "description").text = f"stickslip: {fragility.quantity}"
+    about_it = f"stickslip: {fragility.quantity}"
+    note = _note(fragility)
+    ElementTree.SubElement(model, "description").text = about_it + (f"; {note}" if note else "")
     ElementTree.SubElement(model, "limitStates").text = " ".join(states)
     im = fragility.grid()
     if fragility.method == "lognormal":
@@ -99,6 +105,11 @@ def to_openquake(fragility: Fragility, path: str | os.PathLike[str], id: str) ->
     with replacing(path) as stream:
         stream.write(ElementTree.tostring(root, encoding="utf-8", xml_declaration=True) + b"\n")
     return Path(os.fsdecode(path))
+
+
+def _note(fragility: Fragility) -> str:
+    outside = fragility._outside()
+    return f"extrapolated: {outside}" if outside else ""
 
 
 def _period(fragility: Fragility, who: str) -> float:

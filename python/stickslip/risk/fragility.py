@@ -16,6 +16,7 @@ from .._numbers import real, reals, whole_number
 from .._optional import optional
 from .._tables import Columns
 from .._tabular import Tabular
+from ..regressions import RangeWarning
 from ..sweeps.table import SweepTable
 from .cloud import Cloud
 from .exceedance import Exceedance
@@ -32,6 +33,7 @@ __all__ = ["Bands", "Fragility"]
 _Array = NDArray[np.float64]
 _METHODS = ("lognormal", "logit", "cloud")
 _HCLPF = 0.01  # on the mean curve
+_UNLIKELY = 0.01  # probability of the data below which a shared dispersion is doubted
 
 
 class Bands(NamedTuple):
@@ -86,6 +88,12 @@ class Fragility(Tabular):
         Name and unit of the intensity measure.
     im_period : float or None
         Period [s], of stripes of `sa_g`.
+    im_range : tuple of float
+        The lowest and the highest intensity of the ground motions. Beyond them the curves are
+        extrapolated.
+    p_shared : float
+        The probability of dispersions that differ as much as these or more, if the thresholds have
+        one; NaN if that is not tested: one threshold or record, 'cloud', or `separate`.
     """
 
     thresholds: tuple[float | Event, ...]
@@ -102,6 +110,26 @@ class Fragility(Tabular):
         self.beta_parameters = np.minimum(model.deviation_of_draws(), self.beta)
         self.beta_records = np.sqrt(self.beta**2 - self.beta_parameters**2)
         self.hclpf = model.quantile(self._found, _HCLPF)[0]
+        self.im_range = (float(data.im.min()), float(data.im.max()))
+        self.p_shared = math.nan
+        if isinstance(model, Exceedance):
+            self.p_shared, alone = model.shared_dispersion()
+            if self.p_shared < _UNLIKELY:
+                each = ", ".join(f"{n} {b:.2f}" for n, b in zip(data.labels, alone))
+                warnings.warn(
+                    f"Fragility.fit: the thresholds share a dispersion of {self.beta[0]:.2f}, and"
+                    f" their responses contradict it (p = {self.p_shared:.1g}): alone they have"
+                    f" {each}; separate=True gives each its own",
+                    RuntimeWarning,
+                    stacklevel=3,
+                )
+        outside = self._outside()
+        if outside:
+            warnings.warn(
+                f"Fragility.fit: extrapolated: {outside}; add ground motions that reach there",
+                RangeWarning,
+                stacklevel=3,
+            )
         for label, median in zip(data.labels, self.median):
             if math.isinf(median):
                 warnings.warn(
@@ -147,7 +175,8 @@ class Fragility(Tabular):
             The displacement.
         separate : bool, optional
             Fit a dispersion for each threshold. By default they share one, so that the curves of
-            different thresholds do not cross. Not for 'cloud', whose curves never cross.
+            different thresholds do not cross, and a test says where the responses contradict it.
+            Not for 'cloud', whose curves never cross.
         method : {'lognormal', 'logit', 'cloud'}
         censored_below : float, optional
             Under 'cloud', displacements above zero and below this one [m] are left-censored: the
@@ -168,14 +197,18 @@ class Fragility(Tabular):
 
         Warns
         -----
+        RangeWarning
+            A median or an HCLPF lies beyond the intensities of the ground motions.
         RuntimeWarning
             Responses failed, and are left out; a median is infinite, because under 'cloud' no
-            intensity makes the slider exceed the threshold half of the time.
+            intensity makes the slider exceed the threshold half of the time; the thresholds share a
+            dispersion although that is improbable: p is below 0.01 in a likelihood-ratio test that
+            allows for responses to one record being alike (Rao and Scott 1984).
 
         Examples
         --------
         >>> import stickslip as ss
-        >>> stripes = ss.sample_records().stripes(pga_g=[0.2, 0.4, 0.8])
+        >>> stripes = ss.sample_records().stripes(pga_g=[0.1, 0.2, 0.4, 0.8, 1.6])
         >>> mu = ss.Random(ss.Coulomb, mu=ss.Lognormal(median=0.2, beta=0.3))
         >>> table = ss.sweep(mu, stripes, members=50, seed=1)
         >>> f = ss.Fragility.fit(table, im="pga_g", thresholds=[0.02, 0.1])
@@ -362,6 +395,25 @@ class Fragility(Tabular):
         """The thresholds as text, such as '0.1 m'."""
         return self._data.labels
 
+    @property
+    def extrapolated(self) -> NDArray[np.bool_]:
+        """Whether median and HCLPF are outside `im_range`, shape (T, 2)."""
+        low, high = self.im_range
+        values = np.stack([self.median, self.hclpf], axis=1)
+        outside: NDArray[np.bool_] = (values < low) | (values > high)
+        return outside
+
+    def _outside(self) -> str:
+        """What is outside `im_range`, as a text; empty if nothing is."""
+        found = [
+            f"{name} of {', '.join(n for n, beyond in zip(self.labels, column) if beyond)}"
+            for name, column in zip(("median", "HCLPF"), self.extrapolated.T)
+            if column.any()
+        ]
+        low, high = self.im_range
+        where = f" outside {low:.4g} to {high:.4g} {self.im_unit}".rstrip()
+        return " and ".join(found) + where if found else ""
+
     def grid(self) -> NDArray[np.float64]:
         """101 intensities over which the curves rise, shape (101,)."""
         low, high = (self._model.quantile(self._found, p) for p in (0.001, 0.999))
@@ -399,6 +451,8 @@ class Fragility(Tabular):
         -----
         RuntimeWarning
             More than 10 % of a rate comes from beyond the points of the hazard curve.
+        RangeWarning
+            More than 10 % of a rate comes from beyond the intensities of the ground motions.
         """
         from .hazard import exceedances
 
@@ -461,6 +515,8 @@ class Fragility(Tabular):
     ) -> Figure | Axes:
         """Plot the curves with their bands, and the fractions of responses that exceed.
 
+        Curves are dashed beyond the intensities of the ground motions.
+
         Parameters
         ----------
         level : float, optional
@@ -513,6 +569,12 @@ class Fragility(Tabular):
         columns: dict[str, NDArray[Any]] = {
             "threshold": np.array(self.thresholds if numbers else self.labels),
             **{name: getattr(self, name) for name in names},
+            "extrapolated": np.array(
+                [
+                    " ".join(n for n, out in zip(("median", "hclpf"), row) if out)
+                    for row in self.extrapolated
+                ]
+            ),
             "im": np.full(len(self.thresholds), self.im),
             "method": np.full(len(self.thresholds), self.method),
         }
@@ -525,4 +587,6 @@ class Fragility(Tabular):
             f"{label}: {median:.3g}{unit} (beta {beta:.2f})"
             for label, median, beta in zip(self.labels, self.median, self.beta)
         )
-        return f"<Fragility by {self.im}: {curves}>"
+        outside = self._outside()
+        note = f"; extrapolated: {outside}" if outside else ""
+        return f"<Fragility by {self.im}: {curves}{note}>"
