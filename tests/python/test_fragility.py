@@ -467,7 +467,9 @@ def test_an_intensity_is_a_column_a_short_name_or_a_function():
     )
     assert same.median == pytest.approx(by.median, rel=1e-9)
     assert ss.Fragility.fit(t, im="cav", thresholds=0.05).im_unit == "m/s"
-    with pytest.raises(ValueError, match=r"'sa_g' is not.*; the table has pgv, pga_g, arias, cav"):
+    with pytest.raises(
+        ValueError, match=r"'sa_g' is not.*; the table has pgv, pga_g, arias, cav, sa\(period\)"
+    ):
         ss.Fragility.fit(t, im="sa_g", thresholds=0.05)
     alone = simulated(1)
     with pytest.raises(ValueError, match=r"'pgv' is not.*; the table has pga_g"):
@@ -478,6 +480,112 @@ def test_an_intensity_is_a_column_a_short_name_or_a_function():
     t = ss.sweep(ss.Coulomb(mu=0.01), ss.Suite(quiet))
     with pytest.raises(ValueError, match=r"pga_g must be positive .*, got 0 for 'quiet'"):
         ss.Fragility.fit(t, im="pga_g", thresholds=0.05)
+
+
+def test_a_pseudo_acceleration_is_a_short_name_and_can_be_exported(tmp_path):
+    t = ss.sweep(ss.Coulomb(mu=0.1), ss.sample_records().stripes(pgv=[0.2, 0.3, 0.4, 0.5]))
+    by = ss.Fragility.fit(t, im="sa(1.0)", thresholds=0.05)
+    assert (by.im, by.im_unit, by.im_period, by.im_directions) == ("sa_g", "g", 1.0, "axis")
+    assert repr(by).startswith("<Fragility by sa_g at 1 s: ")
+
+    def value(motion):
+        return ss.response_spectrum(motion, [1.0]).values.item() / ss.STANDARD_GRAVITY
+
+    f = ss.Fragility.fit(t, im=value, thresholds=0.05)
+    assert by.median == pytest.approx(f.median, rel=1e-9)
+    assert ",Spectral Acceleration|1.0,g," in by.to_pelicun(tmp_path / "f.csv").read_text()
+    assert 'imt="SA(1)"' in by.to_openquake(tmp_path / "f.xml").read_text()
+    with pytest.raises(ValueError, match=r"im must be pga_g, pgv or sa\(1.0\), got 'value'"):
+        f.to_pelicun(tmp_path / "f.csv")
+    f = ss.Fragility.fit(t, im=lambda motion: value(motion), thresholds=0.05)
+    with pytest.raises(ValueError, match=r"got 'function of the motion'"):
+        f.to_openquake(tmp_path / "f.xml")
+    stripes = ss.sample_records().stripes(sa_g=[0.2, 0.5, 1.0], period=0.5)
+    t = ss.sweep(ss.Coulomb(mu=0.1), stripes)
+    both = [ss.Fragility.fit(t, im=im, thresholds=0.05) for im in ("sa_g", "SA(0.5)")]
+    assert both[0] == both[1]
+    assert both[0].im_range == (0.2, 1.0)
+    with pytest.raises(ValueError, match=r"'sa\(one\)' is not"):
+        ss.Fragility.fit(t, im="sa(one)", thresholds=0.05)
+
+
+# ---- pairs
+
+
+def pairs(exchanged=False):
+    """Two components of different strength, from the same samples in another order."""
+    made = []
+    for i in range(12):
+        first, second = (ss.sample_records()[j] for j in (i, i + 6))
+        n = min(len(first), len(second), 2000)
+        a, b = first.acceleration[:n], 0.6 * second.acceleration[:n]
+        a, b = (b, a) if exchanged else (a, b)
+        made.append(ss.GroundMotion(a, dt=0.01, transverse=b, name=f"pair {i}"))
+    return ss.Suite(made)
+
+
+BLOCK = ss.PlanarSlider(ss.Coulomb(mu=0.05))
+
+
+@pytest.mark.parametrize("im", ["pga_g", "pgv", "sa(0.5)"])
+def test_which_component_comes_first_does_not_matter_in_the_plane(im):
+    name, period = ("sa_g", 0.5) if im.startswith("sa") else (im, None)
+    levels = {
+        "pga_g": [0.05, 0.1, 0.2, 0.4],
+        "pgv": [0.1, 0.15, 0.2, 0.3],
+        "sa_g": [0.1, 0.3, 0.9],
+    }[name]
+    fits = []
+    for exchanged in (False, True):
+        suite = pairs(exchanged)
+        tables = [
+            ss.sweep(BLOCK, suite, settle=True),
+            ss.sweep(BLOCK, suite.stripes(**{name: levels}, period=period), settle=True),
+        ]
+        fits.append(
+            [
+                ss.Fragility.fit(tables[0], im=im, thresholds=[0.05], method="cloud"),
+                ss.Fragility.fit(tables[1], im=im, thresholds=[0.03, 0.05]),
+            ]
+        )
+    for one, other in zip(*fits):
+        assert one.median == pytest.approx(other.median, rel=1e-12)
+        assert one.beta == pytest.approx(other.beta, rel=1e-12)
+        assert one.im_directions == other.im_directions == "rotd50"
+        assert repr(one).startswith("<Fragility by RotD50 of ")
+        assert json.loads(one.to_json())["im_directions"][0] == "rotd50"
+    assert fits[0][1].im_range == (levels[0], levels[-1])
+
+
+def test_stripes_of_pairs_are_levels_of_their_directions(tmp_path):
+    suite = pairs()
+    for directions in ("rotd50", "rotd100"):
+        scaled = suite.stripes(pga_g=[0.2, 0.4], directions=directions)
+        for motion, level in zip(scaled, scaled.stripe):
+            found = getattr(ss.rotd(motion), directions).item() / ss.STANDARD_GRAVITY
+            assert found == pytest.approx(level, rel=1e-12)
+        assert set(scaled.directions) == {directions}
+    along = suite.stripes(pga_g=[0.2, 0.4], directions="axis")
+    assert along.pga_g == pytest.approx(along.stripe, rel=1e-14)
+    assert "directions" not in along.metadata
+    # Along one axis the levels are those of the stripes, too; of motions as they are, of the axis.
+    block, striped = ss.Coulomb(mu=0.05), suite.stripes(pga_g=[0.1, 0.2, 0.4, 0.8])
+    f = ss.Fragility.fit(ss.sweep(block, striped), im="pga_g", thresholds=0.05)
+    assert (f.im_directions, f.im_range) == ("rotd50", (0.1, 0.8))
+    f = ss.Fragility.fit(ss.sweep(block, suite), im="pga_g", thresholds=0.05, method="cloud")
+    assert (f.im_directions, f.im_range) == ("axis", (suite.pga_g.min(), suite.pga_g.max()))
+    with pytest.raises(ValueError, match="directions must be 'axis', 'rotd50' or 'rotd100' for pg"):
+        suite.stripes(pga_g=[0.2], directions="rotd00")
+    # A table from a file lacks the motions of pairs: what stripes say is enough.
+    pytest.importorskip("h5py")
+    t = ss.sweep(BLOCK, striped, settle=True)
+    t.save(tmp_path / "t.h5")
+    saved = ss.SweepTable.open(tmp_path / "t.h5")
+    fits = [ss.Fragility.fit(one, im="pga_g", thresholds=0.05) for one in (t, saved)]
+    assert fits[0] == fits[1]
+    ss.sweep(BLOCK, suite).save(tmp_path / "t.h5")
+    with pytest.raises(ValueError, match="the rotd50 of pga_g needs the ground motions"):
+        ss.Fragility.fit(ss.SweepTable.open(tmp_path / "t.h5"), im="pga_g", thresholds=0.05)
 
 
 def test_a_saved_table_has_the_same_fragility(tmp_path):

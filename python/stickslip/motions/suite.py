@@ -18,13 +18,21 @@ from .._core import (
     GroundMotion,
     ResponseSpectrum,
     identity,
-    response_spectrum,
 )
 from .._hdf5 import Saved, as_column, read, read_columns, write, write_columns, write_joined
 from .._numbers import reals
 from .._tabular import Tabular
 from ..runs.progress import Progress
-from .intensity import LEVEL_UNITS, IntensityMeasures, beside, level_of
+from .intensity import (
+    LEVEL_UNITS,
+    Directions,
+    IntensityMeasures,
+    beside,
+    check_directions,
+    level_of,
+    over_directions,
+    spectrum_of,
+)
 from .reading import LeftOut, free_names, read_suite
 
 __all__ = ["LeftOut", "Suite"]
@@ -314,8 +322,11 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
         spectrum: ResponseSpectrum | tuple[ArrayLike, ArrayLike] | None = None,
         period: float | None = None,
         damping: float = 0.05,
+        directions: Directions | Literal["srss"] | None = None,
     ) -> Suite:
         """Scale each motion by a factor so that it meets a target.
+
+        All components of a motion have the same factor.
 
         Parameters
         ----------
@@ -335,6 +346,11 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
             Period [s] for `sa_g`, at least 0.
         damping : float, optional
             Damping ratio for `sa_g` and for `spectrum` as arrays.
+        directions : {'axis', 'rotd50', 'rotd100', 'srss'}, optional
+            What meets the target: the component along the axis; the median or the maximum over the
+            horizontal directions, in steps of 1 degree; or, for `sa_g` and `spectrum`, the root of
+            the sum of the squares of the spectra of both components. Default: 'rotd50' for motions
+            with a transverse component, 'axis' for others, which have no choice.
 
         Returns
         -------
@@ -343,7 +359,8 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
         Raises
         ------
         ValueError
-            Not exactly one target; a value out of range; a motion that is zero throughout.
+            Not exactly one target; a value out of range; a motion that is zero throughout;
+            directions other than these.
         """
         targets = {"pga_g": pga_g, "pgv": pgv, "arias": arias, "sa_g": sa_g, "spectrum": spectrum}
         given = [name for name, value in targets.items() if value is not None]
@@ -354,7 +371,9 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
             )
         if spectrum is None:
             level = targets[given[0]]
-            return self.scaled(self._factors("scaled_to", given[0], level, period, damping))
+            return self.scaled(
+                self._factors("scaled_to", given[0], level, period, damping, directions)
+            )
         if period is not None:
             raise ValueError("Suite.scaled_to: period goes with sa_g, got it with spectrum")
         if isinstance(spectrum, ResponseSpectrum):
@@ -377,11 +396,14 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
                 f"Suite.scaled_to: targets must be positive and finite, got {target.min()} m/s^2"
             )
         self._require_motion("scaled_to")
-        factors = []
-        for motion in self._motions:
-            own = np.asarray(response_spectrum(motion, periods, damping).values).reshape(-1)
-            factors.append(math.exp(np.mean(np.log(target / own))))
-        return self.scaled(factors)
+        check_directions(directions, "Suite.scaled_to", "spectrum")
+        own = np.array(
+            [
+                spectrum_of(m, periods, damping, over_directions(m, directions))
+                for m in self._motions
+            ]
+        )
+        return self.scaled(np.exp(np.log(target / own).mean(axis=1)))
 
     def stripes(
         self,
@@ -392,6 +414,7 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
         sa_g: ArrayLike | None = None,
         period: float | None = None,
         damping: float = 0.05,
+        directions: Directions | None = None,
     ) -> Suite:
         """Scale each motion to each of several levels of one intensity measure.
 
@@ -412,16 +435,19 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
             Period [s] for `sa_g`, at least 0.
         damping : float, optional
             Damping ratio for `sa_g`.
+        directions : {'axis', 'rotd50', 'rotd100'}, optional
+            As for `scaled_to`.
 
         Returns
         -------
         Suite
             All motions at the first level, then all at the second, and so on. The metadata of each
             motion gain `record`, the name of the record that was scaled, which is different for
-            each record of this suite; `stripe`, the level; and `factor`. The level is also in a
-            column with the name of the measure: the property `pga_g`, or `pgv`, `arias` or `sa_g`
-            with `sa_period`. If the suite has a column `record` already, it is kept: motions with
-            the same `record`, such as two components of one station, count as one record.
+            each record of this suite; `stripe`, the level; `factor`; and, if there are pairs,
+            `directions`, such as 'rotd50'. The level is also in a column with the name of the
+            measure: `pgv`, `arias` or `sa_g` with `sa_period`; the property `pga_g` is that of the
+            axis. If the suite has a column `record` already, it is kept: motions with the same
+            `record`, such as two components of one station, count as one record.
 
         Raises
         ------
@@ -462,12 +488,17 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
             raise ValueError(
                 "Suite.stripes: this suite consists of stripes already; give its levels at once"
             )
-        factors = self._factors("stripes", measure, levels[:, np.newaxis], period, damping)
+        factors = self._factors(
+            "stripes", measure, levels[:, np.newaxis], period, damping, directions
+        )
         count, records = len(levels), len(self)
         columns = {name: np.tile(column, count) for name, column in self._metadata.items()}
         columns.setdefault("record", np.tile(self._different_names(), count))
         columns["stripe"] = np.repeat(levels, records)
         columns["factor"] = factors.ravel()
+        counted = [over_directions(motion, directions) for motion in self._motions]
+        if set(counted) != {"axis"}:
+            columns["directions"] = np.tile(counted, count)
         if measure != "pga_g":  # a property of every suite
             columns[measure] = columns["stripe"]
         if period is not None:
@@ -476,7 +507,13 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
         return Suite(motions, columns)
 
     def _factors(
-        self, who: str, measure: str, levels: Any, period: float | None, damping: float
+        self,
+        who: str,
+        measure: str,
+        levels: Any,
+        period: float | None,
+        damping: float,
+        directions: str | None,
     ) -> NDArray[np.float64]:
         """The factors that scale each motion to a level, or, of a column of levels, to each."""
         if (measure == "sa_g") != (period is not None):
@@ -493,7 +530,13 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
                 f" {LEVEL_UNITS[measure]}"
             )
         self._require_motion(who)
-        own = np.array([level_of(m, measure, period, damping) for m in self._motions])
+        check_directions(directions, f"Suite.{who}", measure)
+        own = np.array(
+            [
+                level_of(m, measure, period, damping, over_directions(m, directions))
+                for m in self._motions
+            ]
+        )
         zero = np.flatnonzero(~(own > 0))
         if zero.size:
             raise ValueError(

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 
+from ..motions.intensity import OF_DIRECTIONS
 from .figures import one_panel
 from .styles import COLORS, GRAY, style, wrapped
 
@@ -20,10 +21,11 @@ MEASURES = {
 }
 
 
-def measure_label(name: str, unit: str, period: float | None = None) -> str:
-    """The label of an axis of an intensity measure."""
-    at = f" at {period:g} s" if period is not None else ""
-    return MEASURES.get(name, name) + at + (f" [{unit}]" if unit else "")
+def measure_label(of: Any) -> str:
+    """The label of an axis of the intensity measure of a Fragility."""
+    at = f" at {of.im_period:g} s" if of.im_period is not None else ""
+    name = OF_DIRECTIONS.get(of.im_directions, "") + MEASURES.get(of.im, of.im)
+    return name + at + (f" [{of.im_unit}]" if of.im_unit else "")
 
 
 def _plot_known(axes: Axes, x: Any, y: Any, known: tuple[float, float], **style: Any) -> None:
@@ -86,7 +88,7 @@ def plot_fragility(
         _explain_dashes(axes)
         axes.set_xscale("log")
         axes.set_ylim(0, 1)
-        axes.set_xlabel(measure_label(fragility.im, fragility.im_unit, fragility.im_period))
+        axes.set_xlabel(measure_label(fragility))
         axes.set_ylabel("probability of exceedance")
         axes.legend(title=fragility.quantity.replace("_", " "), loc="upper left")
         if title:
@@ -130,7 +132,7 @@ def plot_exceedances(
         _explain_dashes(axes)
         axes.set_xscale("log")
         axes.set_ylim(bottom=0)
-        axes.set_xlabel(measure_label(f.im, f.im_unit, f.im_period))
+        axes.set_xlabel(measure_label(f))
         axes.set_ylabel("contribution to the rate, per unit of ln IM")
         axes.legend(title=f.quantity.replace("_", " "), loc="upper right")
         if title:
@@ -179,7 +181,7 @@ def plot_design_chart(
     middle = int(np.argmin(np.abs(chart.percentiles - 50)))
     unit = {"pga_g": "g", "pgv": "m/s"}[chart.measure]
     shares = ", ".join(f"{p:g}" for p in chart.percentiles)
-    over = {"axis": "", "rotd50": "RotD50 of ", "rotd100": "RotD100 of "}[chart.directions]
+    over = OF_DIRECTIONS.get(chart.directions, "")
     with style():
         figure, axes = one_panel("plot_design_chart", None, ax, 7, 4.5)
         for i, (level, color) in enumerate(zip(chart.levels, COLORS)):

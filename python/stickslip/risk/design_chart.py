@@ -175,7 +175,7 @@ def design_chart(
     blocks = grid(Coulomb, mu=coefficients)
     statistic = np.max if directions == "rotd100" else np.median
     if directions == "axis":
-        stripes, turns = suite.stripes(pga_g=pga_g, pgv=pgv), 1
+        stripes, turns = suite.stripes(pga_g=pga_g, pgv=pgv, directions="axis"), 1
     else:
         rotated = [_directions(motion) for motion in suite]
         turns = len(rotated[0])

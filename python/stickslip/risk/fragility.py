@@ -16,6 +16,7 @@ from .._numbers import real, reals, whole_number
 from .._optional import optional
 from .._tables import Columns
 from .._tabular import Tabular
+from ..motions.intensity import OF_DIRECTIONS
 from ..regressions import RangeWarning
 from ..sweeps.table import SweepTable
 from .cloud import Cloud
@@ -87,7 +88,10 @@ class Fragility(Tabular):
     im, im_unit : str
         Name and unit of the intensity measure.
     im_period : float or None
-        Period [s], of stripes of `sa_g`.
+        Period [s] of `sa_g`.
+    im_directions : {'axis', 'rotd50', 'rotd100', ''}
+        What the measure is of: the component along the axis, or the median or the maximum over the
+        directions of pairs; empty for your own columns and functions.
     im_range : tuple of float
         The lowest and the highest intensity of the ground motions. Beyond them the curves are
         extrapolated.
@@ -105,6 +109,7 @@ class Fragility(Tabular):
         self._found = model.estimate()
         self.thresholds = data.thresholds
         self.im, self.im_unit, self.im_period = data.im_name, data.im_unit, data.im_period
+        self.im_directions = data.im_directions
         self.method, self.quantity = method, quantity
         self.median, self.beta = (one[0] for one in model.summary(self._found))
         self.beta_parameters = np.minimum(model.deviation_of_draws(), self.beta)
@@ -168,7 +173,10 @@ class Fragility(Tabular):
             by the column `record` of the metadata if there is one.
         im : str or callable
             A column of the metadata of the table; one of 'pga_g' [g], 'pgv', 'arias' and 'cav'
-            [m/s], computed from the ground motions; or a function of a GroundMotion.
+            [m/s], or 'sa(1.0)', the pseudo-acceleration at 1 s and 5 % damping [g], computed from
+            the ground motions; or a function of a GroundMotion. Of sliders in the plane, a measure
+            is RotD50, the median over all directions; of stripes, whatever `stripes` scaled:
+            `im_directions` says which.
         thresholds : float, list of float, or ss.impact
             Displacements [m], positive, increasing; or hitting a stop.
         quantity : {'peak', 'residual', 'sliding_distance'}
@@ -190,8 +198,9 @@ class Fragility(Tabular):
         ------
         ValueError
             An unbounded fit: all or no responses exceed a threshold, or the intensity separates
-            those that do from the others; an intensity measure that the table lacks, or that is
-            zero; a threshold at or beyond a stop; an argument out of range.
+            those that do from the others; an intensity measure that the table lacks, as one from a
+            file lacks those of pairs, or that is zero; a threshold at or beyond a stop; an argument
+            out of range.
         ImportError
             SciPy is missing.
 
@@ -576,6 +585,7 @@ class Fragility(Tabular):
                 ]
             ),
             "im": np.full(len(self.thresholds), self.im),
+            "im_directions": np.full(len(self.thresholds), self.im_directions),
             "method": np.full(len(self.thresholds), self.method),
         }
         units = {"threshold": "m" if numbers else "", "median": self.im_unit, "hclpf": self.im_unit}
@@ -589,4 +599,9 @@ class Fragility(Tabular):
         )
         outside = self._outside()
         note = f"; extrapolated: {outside}" if outside else ""
-        return f"<Fragility by {self.im}: {curves}{note}>"
+        return f"<Fragility by {self._measure()}: {curves}{note}>"
+
+    def _measure(self) -> str:
+        """The intensity measure as a text, such as 'RotD50 of pga_g'."""
+        at = "" if self.im_period is None else f" at {self.im_period:g} s"
+        return f"{OF_DIRECTIONS.get(self.im_directions, '')}{self.im}{at}"
