@@ -260,6 +260,20 @@ def test_usgs_curves_of_several_editions_or_places_are_refused(tmp_path, curves)
         ss.read_hazard(file)
 
 
+def test_deep_nesting_and_many_points(tmp_path):
+    file = tmp_path / "hazard.json"
+    for text in ("[" * 200_000, '{"response":' * 200_000):
+        file.write_text(text)
+        with pytest.raises(ValueError, match=r"hazard.json': is nested too deeply"):
+            ss.read_hazard(file)
+    im = np.geomspace(1e-4, 10, 200_000)
+    rate = 1e-4 * im**-2.0
+    file.write_text("\n".join(f"{a!r},{b!r}" for a, b in zip(im.tolist(), rate.tolist())))
+    hazard = ss.read_hazard(file)  # some tenths of a second
+    assert hazard.im.tolist() == im.tolist()
+    assert hazard.rate.tolist() == rate.tolist()
+
+
 def test_rates_are_a_table_and_a_picture(fragility):
     h = fragility.rate_of_exceedance(power_law(1e-4, 2))
     frame = pytest.importorskip("pandas") and h.to_dataframe()

@@ -12,6 +12,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from .._files import replacing
+from .._tables import cell
 
 if TYPE_CHECKING:
     from .fragility import Fragility
@@ -58,9 +59,9 @@ def to_pelicun(fragility: Fragility, path: str | os.PathLike[str], id: str) -> P
     note = _note(fragility)
     if note:
         heads.append("Comment")
-        row.append(f'"{note}"')
+        row.append(note)
     with replacing(path) as stream:
-        stream.write(f"{','.join(heads)}\n{','.join(row)}\n".encode())
+        stream.write(f"{','.join(heads)}\n{','.join(map(cell, row))}\n".encode())
     return Path(os.fsdecode(path))
 
 

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 __all__ = ["MUCH_BEYOND", "Exceedances", "Hazard", "exceedances", "read_hazard"]
 
 Array = NDArray[np.float64]
+_BLANKS = str.maketrans(",;", "  ")
 MUCH_BEYOND = 0.1  # share of a rate from beyond what is known that is worth a warning
 # Short names and units of the measures in hazard files, and factors: PGV is in cm/s there, CAV in
 # g s.
@@ -532,7 +533,7 @@ def _is_number(cell: str) -> bool:
 def _from_columns(text: str, years: float | None) -> Hazard:
     rows: list[list[float]] = []
     for number, line in enumerate(text.splitlines(), 1):
-        cells = [cell for cell in re.split(r"[,;\s]+", line.strip()) if cell]
+        cells = line.translate(_BLANKS).split()
         if not cells or cells[0].startswith(("#", "%")):
             continue
         if not rows and not any(map(_is_number, cells)):
@@ -616,6 +617,8 @@ def _from_usgs(text: str, imt: str | None, usual: str) -> Hazard:
         document = json.loads(text)
     except json.JSONDecodeError as error:
         raise ValueError(f"is no JSON document: {error}") from error
+    except RecursionError:
+        raise ValueError("is nested too deeply for the JSON of the USGS hazard tool") from None
     try:
         found = _curves_of_usgs(document)
     except (AttributeError, KeyError, TypeError):  # another document
