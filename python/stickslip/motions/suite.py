@@ -20,7 +20,7 @@ from .._core import (
     identity,
 )
 from .._hdf5 import Saved, as_column, read, read_columns, write, write_columns, write_joined
-from .._numbers import reals
+from .._numbers import real, reals
 from .._tabular import Tabular
 from ..runs.progress import Progress
 from .intensity import (
@@ -321,6 +321,8 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
         sa_g: float | None = None,
         spectrum: ResponseSpectrum | tuple[ArrayLike, ArrayLike] | None = None,
         period: float | None = None,
+        period_range: tuple[float, float] | None = None,
+        at_least: float | None = None,
         damping: float = 0.05,
         directions: Directions | Literal["srss"] | None = None,
     ) -> Suite:
@@ -344,6 +346,13 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
             ln factor = mean of ln(target / Sa). The damping is that of a ResponseSpectrum.
         period : float, optional
             Period [s] for `sa_g`, at least 0.
+        period_range : (float, float), optional
+            The periods over which `spectrum` counts [s], positive, increasing, among those of the
+            target: 51 in equal ratios, and those of the target between them. The target is a
+            straight line in logarithms between its points. Default: its points.
+        at_least : float, optional
+            For `spectrum`: where the mean of the scaled spectra over the records falls below this
+            multiple of the target, all factors grow by one more factor, so that it nowhere does.
         damping : float, optional
             Damping ratio for `sa_g` and for `spectrum` as arrays.
         directions : {'axis', 'rotd50', 'rotd100', 'srss'}, optional
@@ -360,7 +369,7 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
         ------
         ValueError
             Not exactly one target; a value out of range; a motion that is zero throughout;
-            directions other than these.
+            directions other than these; `period_range` or `at_least` without `spectrum`.
         """
         targets = {"pga_g": pga_g, "pgv": pgv, "arias": arias, "sa_g": sa_g, "spectrum": spectrum}
         given = [name for name, value in targets.items() if value is not None]
@@ -370,6 +379,11 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
                 f" {' and '.join(given) or 'none'}"
             )
         if spectrum is None:
+            for what, value in (("period_range", period_range), ("at_least", at_least)):
+                if value is not None:
+                    raise ValueError(
+                        f"Suite.scaled_to: {what} goes with spectrum, got it with {given[0]}"
+                    )
             level = targets[given[0]]
             return self.scaled(
                 self._factors("scaled_to", given[0], level, period, damping, directions)
@@ -395,6 +409,8 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
             raise ValueError(
                 f"Suite.scaled_to: targets must be positive and finite, got {target.min()} m/s^2"
             )
+        if period_range is not None:
+            periods, target = _within(periods, target, period_range)
         self._require_motion("scaled_to")
         check_directions(directions, "Suite.scaled_to", "spectrum")
         own = np.array(
@@ -403,7 +419,16 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
                 for m in self._motions
             ]
         )
-        return self.scaled(np.exp(np.log(target / own).mean(axis=1)))
+        factors = np.exp(np.log(target / own).mean(axis=1))
+        if at_least is not None:
+            floor = real(at_least, "Suite.scaled_to: at_least")
+            if not 0 < floor < math.inf:
+                raise ValueError(
+                    f"Suite.scaled_to: at_least must be positive and finite, got {floor:g}"
+                )
+            mean = (factors[:, np.newaxis] * own).mean(axis=0)
+            factors *= max(1.0, float((floor * target / mean).max()))
+        return self.scaled(factors)
 
     def stripes(
         self,
@@ -727,6 +752,32 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
         for part in (times, *others.values()):
             part.require_used()
         return cls(motions, read_columns(h5, "metadata", len(names)))
+
+
+def _within(
+    periods: NDArray[np.float64], target: NDArray[np.float64], period_range: Any
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """A target spectrum at periods of a range."""
+    ends = np.asarray(reals(period_range, "Suite.scaled_to: period_range"), float)
+    if not (np.diff(periods) > 0).all():
+        raise ValueError("Suite.scaled_to: periods must increase for a period_range")
+    known = periods[periods > 0]
+    if ends.shape != (2,) or not 0 < ends[0] < ends[1]:
+        raise ValueError(
+            "Suite.scaled_to: period_range must be two periods, positive and increasing, got"
+            f" {period_range!r}"
+        )
+    if not known.size or ends[0] < known[0] or ends[1] > known[-1]:
+        raise ValueError(
+            f"Suite.scaled_to: period_range must lie within the periods of the target, got"
+            f" {ends[0]:g} to {ends[1]:g} s with a target from {periods[0]:g} to"
+            f" {periods[-1]:g} s"
+        )
+    inside = known[(known > ends[0]) & (known < ends[1])]
+    chosen = np.union1d(np.geomspace(*ends, 51), inside)
+    chosen[[0, -1]] = ends
+    values = np.log(target[periods > 0])
+    return chosen, np.exp(np.interp(np.log(chosen), np.log(known), values))
 
 
 class _Taken:
