@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import stickslip as ss
 from stickslip.cli import main
+from stickslip.runs import progress
 
 pytest.importorskip("scipy")
 
@@ -127,6 +128,17 @@ def test_both_components_of_a_station_are_one_record(capsys, tmp_path):
 def test_options_without_a_meaning_are_refused(capsys, more, message):
     assert main(["fragility", "sample:Kobe", "--thresholds", "0.1", *more]) == 2
     assert message in capsys.readouterr().err
+
+
+@pytest.mark.filterwarnings("ignore:Fragility.bands")
+def test_a_terminal_sees_the_progress(capsys, monkeypatch):
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
+    monkeypatch.setattr("stickslip.runs.progress._bar", progress._Bar)
+    assert main([*USUAL, *PGA, "--separate"]) == 0
+    captured = capsys.readouterr()
+    assert "144 of 144 combinations" in captured.err
+    assert "1,000 of 1,000 resamples" in captured.err
+    assert "#" not in captured.out
 
 
 def test_one_record_leaves_the_interval_unbounded(capsys):

@@ -285,6 +285,32 @@ def test_polarities_and_stripes_of_a_record_stay_together():
     assert one.bands(0.9).high == pytest.approx(two.bands(0.9).high, abs=1e-6)
 
 
+@pytest.mark.parametrize("method", ["lognormal", "cloud"])
+def test_bands_tell_their_progress_and_can_be_interrupted(capsys, method):
+    f = ss.Fragility.fit(simulated(4, 60), im="pga_g", thresholds=[0.1], method=method)
+    calls = []
+    bands = f.bands(progress=lambda done, total: calls.append((done, total)))
+    assert [done for done, _ in calls] == sorted(done for done, _ in calls)
+    assert len(calls) >= 10
+    assert calls[-1] == (1000, 1000)
+    assert {total for _, total in calls} == {1000}
+    assert (bands.median == f.bands().median).all()
+    f.bands(progress=True)
+    assert "1,000 of 1,000 resamples" in capsys.readouterr().err
+
+    def interrupt(done, total):
+        calls.append((done, total))
+        if done >= 300:
+            raise KeyboardInterrupt
+
+    calls.clear()
+    with pytest.raises(KeyboardInterrupt):
+        f.bands(progress=interrupt)
+    assert calls[-1][0] < 500
+    with pytest.raises(TypeError, match=r"Fragility.bands: progress must be True, False or call"):
+        f.bands(progress="yes")
+
+
 def test_a_single_record_has_no_bands():
     t = simulated(1, records=1, draws=30, beta_parameters=0.3)
     f = ss.Fragility.fit(t, im="pga_g", thresholds=0.1)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import sys
 from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,7 +16,7 @@ from .output import check_outputs, check_whole, json_text, write_csv
 from .parser import number, numbers, ratio, ratios, whole
 
 if TYPE_CHECKING:
-    from ..risk.fragility import Fragility
+    from ..risk.fragility import Bands, Fragility
 
 __all__ = ["add_fragility"]
 
@@ -109,14 +110,16 @@ def _fragility(args: argparse.Namespace) -> str:
     records = len(set(suite.metadata["record"].tolist()))
     if args.pga:
         suite = suite.stripes(pga_g=sorted(args.pga))
+    shown = sys.stderr is not None and sys.stderr.isatty()
     f = Fragility.fit(
-        sweep(block, suite, settle=True, **drawn),
+        sweep(block, suite, settle=True, progress=shown, **drawn),
         im="pga_g",
         thresholds=sorted(args.thresholds),
         separate=args.separate,
         method=args.method or ("lognormal" if args.pga else "cloud"),
     )
-    rows = _rows(f, records)
+    bands = f.bands(_LEVEL, progress=shown) if records > 1 else None
+    rows = _rows(f, bands)
     if hazard is not None:
         h = f.rate_of_exceedance(hazard)
         rates = (h.rate.tolist(), h.extrapolated.tolist(), h.probability(years).tolist())
@@ -140,8 +143,7 @@ def _fragility(args: argparse.Namespace) -> str:
     return "\n".join([*_lines(rows, f.im_range), *(f"wrote {printable(name)}" for name in written)])
 
 
-def _rows(f: Fragility, records: int) -> list[dict[str, Any]]:
-    bands = f.bands(_LEVEL) if records > 1 else None
+def _rows(f: Fragility, bands: Bands | None) -> list[dict[str, Any]]:
     rows = []
     for i, threshold in enumerate(f.thresholds):
         low, high = bands.median[i].tolist() if bands else (0.0, math.inf)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._optional import optional
+from ..runs.progress import Progress
 from .levels import Levels
 from .observations import Observations
 from .shifts import deviation_of_draws, shifts
@@ -249,13 +250,17 @@ class Exceedance:
         beta = np.where(mixed, self.link.deviation / each, 0.0)
         return ratio, float(common[0]), cuts[0], beta
 
-    def estimate(self, weights: Array | None = None) -> dict[str, NDArray[Any]]:
+    def estimate(
+        self, weights: Array | None = None, progress: Progress | None = None
+    ) -> dict[str, NDArray[Any]]:
         """The median and the dispersion, for each row of weights of the records.
 
         Parameters
         ----------
         weights : ndarray, shape (B, R), optional
             Default: one row of ones.
+        progress : callable, optional
+            Called with the number of rows that are done, and all.
 
         Returns
         -------
@@ -264,9 +269,11 @@ class Exceedance:
             whether the likelihood has its maximum at a dispersion above zero.
         """
         rows = np.ones((1, self.records)) if weights is None else weights
-        size = max(1, int(2e6 / (len(self._k) * len(self.x))))
+        size = max(1, min(100, int(2e6 / (len(self._k) * len(self.x)))))
         slopes, intercepts, both, spread = [], [], [], []
         for begin in range(0, len(rows), size):
+            if progress is not None:
+                progress(begin, len(rows))
             some = rows[begin : begin + size]
             n = some @ self._n
             k = np.stack([some @ one for one in self._k], axis=1)

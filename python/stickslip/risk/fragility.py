@@ -18,6 +18,7 @@ from .._tables import Columns
 from .._tabular import Tabular
 from ..motions.intensity import OF_DIRECTIONS
 from ..regressions import RangeWarning
+from ..runs.progress import Progress, shown
 from ..sweeps.table import SweepTable
 from .cloud import Cloud
 from .exceedance import Exceedance
@@ -278,6 +279,7 @@ class Fragility(Tabular):
         *,
         samples: SupportsIndex = 1000,
         seed: SupportsIndex = 0,
+        progress: bool | Progress = False,
     ) -> Bands:
         """Confidence bands, by resampling records.
 
@@ -295,6 +297,9 @@ class Fragility(Tabular):
         samples : int, optional
             Number of samples, at least 100.
         seed : int, optional
+        progress : bool or callable, optional
+            True shows a progress bar on stderr, as for `sweep`; a callable is called with the
+            number of samples done and their total.
 
         Returns
         -------
@@ -338,7 +343,9 @@ class Fragility(Tabular):
             raise ValueError(f"Fragility.bands: im must be at least 0, got {where.min():g}")
         rng = np.random.default_rng(whole_number(seed, "Fragility.bands: seed", 0))
         weights = rng.multinomial(records, np.full(records, 1 / records), size=count).astype(float)
-        found = self._model.estimate(weights)
+        with shown(progress, who="Fragility.bands", things="resamples") as show:
+            found = self._model.estimate(weights, show)
+            show(count, count)
         wide = math.sqrt(records / (records - 1)) * stats.t.ppf((1 + level) / 2, records - 1)
         ends = [stats.norm.cdf(-wide), stats.norm.cdf(wide)]
         if ends[0] * count < 1:
