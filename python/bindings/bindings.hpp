@@ -14,7 +14,8 @@
 #include <vector>
 
 #include "friction/callable_law.hpp"
-#include "friction/plausibility.hpp"
+#include "plausibility.hpp"
+#include "statistics/estimate.hpp"
 #include "stickslip/stickslip.hpp"
 
 namespace py = pybind11;
@@ -394,7 +395,7 @@ inline double slip_level_of(std::optional<double> mu, std::optional<double> slip
                                     : "neither"));
   if (!mu) return *slip_level;
   detail::require(std::isfinite(*mu) && *mu >= 0, law + ": " + mu_name + " must be finite and at least 0", *mu);
-  check_coefficient(law, mu_name, *mu);
+  check_unit("coefficient of friction", law, mu_name, *mu);
   return *mu * standard_gravity;
 }
 

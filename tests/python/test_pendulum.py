@@ -189,7 +189,10 @@ def test_a_remark_beyond_a_fifth_of_a_radian():
         (lambda: ss.Slider(FIVE, slope_degrees=3), "slope_degrees must be 0"),
         (lambda: ss.Slider(FIVE, one_way=True), "both ways"),
         (lambda: ss.FrictionPendulum(radius=2, law=FIVE), "already is a pendulum"),
-        (lambda: ss.Slider(FIVE, stops=ss.Stops(gap=9, restitution=0)), "within its own capacity"),
+        (
+            lambda: ss.Slider(FIVE, stops=ss.Stops(gap=2.9, restitution=0)),
+            "within its own capacity",
+        ),
         (lambda: FIVE.trace([9]), r"path\[0\] must be finite and within the capacity"),
         (lambda: FIVE.trace([math.nan]), r"path"),
         (lambda: ss.integrate(FIVE, QUAKE, displacement=9), "between the stops"),

@@ -292,6 +292,7 @@ def test_a_yield_acceleration_that_falls_with_the_distance() -> None:
     assert e.configuration["slider"]["law"] == "Degrading"
 
 
+@pytest.mark.filterwarnings("ignore:.*base_mass over:stickslip.PlausibilityWarning")
 def test_a_structure_that_is_too_fast_for_the_time_step() -> None:
     light = ss.IsolatedStructure(ss.Coulomb(slip_level=1), BUILDING, base_mass=1e-12)
     with pytest.raises(

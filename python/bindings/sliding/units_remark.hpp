@@ -4,7 +4,6 @@
 #include <string>
 
 #include "bindings.hpp"
-#include "friction/plausibility.hpp"
 
 namespace stickslip::python {
 

@@ -22,7 +22,6 @@
 #include "stickslip/structure/floor_motions.hpp"
 #include "stickslip/structure/isolated_structure.hpp"
 #include "structure/from_inputs.hpp"
-#include "structure/plausibility.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -43,12 +42,21 @@ Structure structure_of_modes(const py::object& fractions, const py::object& freq
   return Structure::from_modes(f, w, z, matrix_from(shapes, "Structure.from_modes: shapes"));
 }
 
+double first_period(const Structure& s) {
+  const auto& w = s.modes().frequencies;  // in order
+  const auto first = std::ranges::upper_bound(w, 0.0);
+  return first == w.end() ? std::numeric_limits<double>::infinity() : 2 * std::numbers::pi / *first;
+}
+
+void check_first_period(const std::string& who, std::string_view quantity, const Structure& structure) {
+  check_unit(quantity, who, "the first period", first_period(structure));
+}
+
 Structure plausible_structure_of_modes(const py::object& fractions, const py::object& frequencies,
                                        const py::object& ratios, const py::object& shapes) {
   Structure structure = structure_of_modes(fractions, frequencies, ratios, shapes);
-  const auto& all = structure.modes().damping_ratios;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    check_damping_ratio("Structure.from_modes", "damping_ratios[" + std::to_string(i) + "]", all[i]);
+  check_unit("damping ratio", "Structure.from_modes", "damping_ratios", structure.modes().damping_ratios);
+  check_first_period("Structure.from_modes", "first period of modes", structure);
   return structure;
 }
 
@@ -68,15 +76,13 @@ Structure structure_from_inputs(const py::tuple& inputs) {
 }
 
 std::string description(const Structure& s) {
-  const auto& w = s.modes().frequencies;  // in order
-  const auto rigid = std::ranges::count(w, 0.0);
-  const double first = rigid < s.size() ? w[static_cast<std::size_t>(rigid)] : std::numeric_limits<double>::infinity();
+  const auto rigid = std::ranges::count(s.modes().frequencies, 0.0);
   const auto count = [](std::ptrdiff_t n, const char* what) {
     return std::to_string(n) + ' ' + what + (n == 1 ? "" : "s");
   };
   return "<Structure: " + (s.floors() > 0 ? count(s.floors(), "floor") + ", " : std::string()) +
          count(s.size(), "mode") + (rigid > 0 ? ", " + std::to_string(rigid) + " of them rigid" : std::string()) +
-         ", first period " + digits(2 * std::numbers::pi / first) + " s>";
+         ", first period " + digits(first_period(s)) + " s>";
 }
 
 const char* name_of(SlopeMethod method) { return method == SlopeMethod::coupled ? "coupled" : "decoupled"; }
@@ -245,8 +251,13 @@ Raises
 ValueError
     Naming the matrix, the entry or the eigenvalue.)",
       &inputs_of_structure, &structure_from_inputs)
-      .def(py::init(&structure_of_matrices), py::arg("mass"), py::arg("damping"), py::arg("stiffness"),
-           py::arg("influence") = py::none())
+      .def(py::init([](const py::object& mass, const py::object& damping, const py::object& stiffness,
+                       const py::object& influence) {
+             Structure structure = structure_of_matrices(mass, damping, stiffness, influence);
+             check_first_period("Structure", "first period of a building", structure);
+             return structure;
+           }),
+           py::arg("mass"), py::arg("damping"), py::arg("stiffness"), py::arg("influence") = py::none())
       .def_static(
           "shear_building",
           [](const py::object& masses, const py::object& stiffnesses, const std::optional<Rayleigh>& damping,
@@ -256,9 +267,11 @@ ValueError
             if (damping.has_value() == damping_ratio.has_value())
               throw std::invalid_argument("Structure.shear_building: give either damping or damping_ratio, got " +
                                           std::string(damping ? "both" : "neither"));
-            if (damping) return Structure::shear_building(mass, stiffness, *damping);
-            check_damping_ratio("Structure.shear_building", "damping_ratio", *damping_ratio);
-            return Structure::shear_building(mass, stiffness, *damping_ratio);
+            check_unit("damping ratio", "Structure.shear_building", "damping_ratio", damping_ratio);
+            Structure building = damping ? Structure::shear_building(mass, stiffness, *damping)
+                                         : Structure::shear_building(mass, stiffness, *damping_ratio);
+            check_first_period("Structure.shear_building", "first period of a building", building);
+            return building;
           },
           py::kw_only(), py::arg("masses"), py::arg("stiffnesses"), py::arg("damping") = py::none(),
           py::arg("damping_ratio") = py::none(),
@@ -438,8 +451,17 @@ True)",
                                                         inputs[1].cast<const Structure&>(),
                                                         inputs[2].cast<std::optional<double>>());
                                       })
-      .def(py::init(isolated), py::arg("slider"), py::arg("structure"), py::kw_only(),
-           py::arg("base_mass") = py::none())
+      .def(py::init([isolated](const AnySlider& slider, const Structure& structure, std::optional<double> base_mass) {
+             IsolatedStructure made = isolated(slider, structure, base_mass);
+             double floors = 0;
+             for (std::ptrdiff_t i = 0; i < structure.mass().rows(); ++i) floors += structure.mass()(i, i);
+             if (base_mass)
+               check_unit("base mass over the mean mass of a floor", "IsolatedStructure",
+                          "base_mass over the mean mass of a floor",
+                          *base_mass * static_cast<double>(structure.floors()) / floors);
+             return made;
+           }),
+           py::arg("slider"), py::arg("structure"), py::kw_only(), py::arg("base_mass") = py::none())
       .def("rest", &IsolatedStructure::rest, "The `StructureState` at rest at x = 0, for `advance`.")
       .def_property_readonly("slider", &IsolatedStructure::slider, "The `Slider` of the interface.")
       .def_property_readonly("structure", &IsolatedStructure::structure, "The `Structure`.")
@@ -507,7 +529,11 @@ Parameters
 ----------
 reference_strain : float
     gr, at which the modulus is half of Gmax; positive and finite.)")
-      .def(py::init<double>(), py::kw_only(), py::arg("reference_strain"))
+      .def(py::init([](double reference_strain) {
+             check_unit("reference strain", "HyperbolicSoil", "reference_strain", reference_strain);
+             return HyperbolicSoil(reference_strain);
+           }),
+           py::kw_only(), py::arg("reference_strain"))
       .def_property_readonly("reference_strain", &HyperbolicSoil::reference_strain, "gr.")
       .def(
           "modulus_ratio",
@@ -610,8 +636,12 @@ True)")
                                  method_of(method),
                                  degrading ? std::optional(*degrading) : std::nullopt};
              check(slope);
-             check_yield_acceleration(slope.ky_g);
-             check_damping_ratio("FlexibleSlope", "damping_ratio", damping_ratio);
+             const std::string who = "FlexibleSlope";
+             check_unit("yield acceleration", who, "ky_g", slope.ky_g);
+             check_unit("first period of a slope", who, "the first period", 4 * height / shear_velocity);
+             check_unit("shear-wave velocity", who, "shear_velocity", shear_velocity);
+             check_unit("shear-wave velocity", who, "rock_velocity", rock_velocity);
+             check_unit("damping ratio", who, "damping_ratio", damping_ratio);
              return slope;
            }),
            py::kw_only(), py::arg("ky_g"), py::arg("height"), py::arg("shear_velocity"), py::arg("damping_ratio") = 0.0,
