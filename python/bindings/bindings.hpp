@@ -200,6 +200,17 @@ inline void check_for_interrupt() {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
+/// Calls `work`; an overflow names what may have caused it: the slider, and its velocity at the start.
+template <class Work>
+auto naming_cause(const py::object& slider, const std::string& velocity, Work&& work) {
+  try {
+    return work();
+  } catch (const std::overflow_error& error) {
+    throw std::overflow_error(std::string(error.what()) + "; the slider is " + py::repr(slider).cast<std::string>() +
+                              ", its velocity at the start " + velocity + " m/s");
+  }
+}
+
 /// A read-only array over `values`, which `owner` keeps alive.
 inline py::array_t<double> view(std::span<const double> values, py::handle owner) {
   py::array_t<double> array(static_cast<py::ssize_t>(values.size()), values.data(), owner);

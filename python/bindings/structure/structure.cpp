@@ -17,6 +17,7 @@
 #include "in_python.hpp"
 #include "parts.hpp"
 #include "sliding/response.hpp"
+#include "sliding/units_remark.hpp"
 #include "stickslip/structure/equipment_on_floor.hpp"
 #include "stickslip/structure/flexible_slope.hpp"
 #include "stickslip/structure/floor_motions.hpp"
@@ -159,6 +160,59 @@ Self integrate_structure(const py::object& system, const py::object& motion, dou
                                           .sliding_distance = sliding_distance,
                                           .heat = heat.value_or(SurfaceHeat())};
   return {integrate_with(system, motion, options), system, motion, options};
+}
+
+/// What slides.
+AnySlider interface_of(const py::object& system) {
+  if (py::isinstance<FlexibleSlope>(system)) {
+    const auto& slope = system.cast<const FlexibleSlope&>();
+    if (slope.degrading) return Slider(*slope.degrading, Mounting{.one_way = true});
+    return Slider(Coulomb(slope.ky_g * standard_gravity, never));
+  }
+  if (py::isinstance<EquipmentOnFloor>(system)) return system.cast<const EquipmentOnFloor&>().slider();
+  return system.cast<const IsolatedStructure&>().slider();
+}
+
+/// Whether the interface would begin to slide at a sample if the ground accelerations, and with them the demand on it,
+/// were in g.
+bool slips_in_g(const Self& self, const AnySlider& slider, const GroundMotion& motion) {
+  const Mounting& on = mounting_of(slider);
+  const detail::Bounds bounds{on.stops, on.one_way};
+  const double x = self.response.displacement.front(), pull = on.spring().under(1) * x;
+  const auto& demand = self.response.interface_demand;
+  return std::visit(
+      [&](const auto& one) {
+        for (std::size_t i = 0; i < std::min(demand.size(), motion.samples()); ++i) {
+          const double up = motion.has_vertical() ? motion.vertical()[i] : 0, weight = std::max(1 + up, 0.0);
+          const double q = (demand[i] + pull) * standard_gravity - pull;
+          const Direction direction = q < 0 ? Direction::backward : Direction::forward;
+          const double level =
+              bounds.bound(direction, x, hold(law_at(one.law(), State::at(x, 0), weight), x, direction));
+          if (std::abs(q) > detail::weigh(weight, level)) return true;
+        }
+        return false;
+      },
+      slider);
+}
+
+std::string remark_of(const Self& self) {
+  const AnySlider slider = interface_of(self.system);
+  const auto& motion = self.motion.cast<const GroundMotion&>();
+  const double ground = motion.peak_acceleration();
+  std::string all;
+  const auto add = [&](const std::string& one) { all += (all.empty() || one.empty() ? "" : "; ") + one; };
+  if (self.response.time_sliding > 0)
+    add(linear_remark(slider, self.response.peak));
+  else if (ground > 0 && ground <= most_g && slips_in_g(self, slider, motion))
+    add(in_g_remark(ground));
+  // The effective strain is 0.65 of the largest (Kaklamanos and others, Bull. Seism. Soc. Am. 103 (2013), 2609-2630).
+  constexpr double most_strain = 0.004;
+  if (const double strain = self.response.soil_strain / 0.65; strain > most_strain)
+    add("the soil is sheared by " + digits(100 * strain) +
+        " %, beyond the 0.4 % up to which equivalent-linear soil resembles nonlinear soil");
+  if (py::isinstance<EquipmentOnFloor>(self.system) && motion.has_transverse())
+    add("the transverse component does not act; floor_motions has both for a PlanarSlider");
+  return all;
 }
 
 /// The floors of a response.
@@ -354,10 +408,10 @@ Modes
     `to_dataframe` and a figure by `plot`.)")
       .def(
           "floor_motions",
-          [](const Structure& s, const GroundMotion& motion, int parts) {
+          [](const Structure& s, const GroundMotion& motion, int parts, const std::optional<Structure>& transverse) {
             const std::vector<GroundMotion> motions = [&] {
               const py::gil_scoped_release released;
-              return floor_motions(s, motion, parts);
+              return floor_motions(s, motion, parts, transverse);
             }();
             py::list each, floors;
             for (const GroundMotion& one : motions) {
@@ -367,7 +421,7 @@ Modes
             return py::module_::import("stickslip.motions.suite")
                 .attr("Suite")(each, py::dict(py::arg("floor") = floors));
           },
-          py::arg("motion"), py::kw_only(), py::arg("parts") = 1,
+          py::arg("motion"), py::kw_only(), py::arg("parts") = 1, py::arg("transverse") = py::none(),
           R"(The absolute accelerations of the floors, as ground motions for light sliders on them.
 
 One response of the structure, on the ground and without what stands on it, serves all sliders: `sweep` integrates many of
@@ -376,19 +430,25 @@ them on every floor. It starts from rest and ends with the ground motion.
 Parameters
 ----------
 motion : GroundMotion
-    Along the direction of the structure. A vertical component acts on the floors as on the ground.
+    Along the direction of the structure. A transverse component acts on the structure in the other direction; there is
+    no torsion. A vertical component acts on the floors as on the ground.
 parts : int, optional
     Equal parts of each segment, at least 1: the floor motions have that many times more samples.
+transverse : Structure, optional
+    The structure in the transverse direction, with as many floors; default: the same as along the axis.
 
 Returns
 -------
 Suite
     One motion per floor, the lowest first, named after the motion and the floor; `suite.floor` has their numbers.
+    Floors count from 1, the items of the suite from 0: `suite[2]` is floor 3. With both horizontal components if the
+    motion has them, as a `PlanarSlider` needs.
 
 Raises
 ------
 ValueError
-    A structure made by `from_modes` without shapes; parts below 1.
+    A structure made by `from_modes` without shapes; parts below 1; a transverse structure with another number of
+    floors, or for a motion without that component.
 OverflowError
     Accelerations above 1e100 m/s^2.
 
@@ -856,6 +916,12 @@ decoupled `FlexibleSlope`, it is that of the slider alone.)")
 Decisions are the ends of slips; infinite if there was none. If it is tiny, the response depends on round-off.)")
       .def_property_readonly("components", number<&StructureResponse::components>(),
                              "Components of the ground motion that acted, 'axis' or 'axis + vertical'.")
+      .def_property_readonly("remark", &remark_of,
+                             R"(Sentences about limits of the result; empty if there are none (str).
+
+A pendulum beyond 0.2 of its radius; an interface that never slips, but would if the ground accelerations were in g;
+equivalent-linear soil that is sheared by more than 0.4 %; equipment under a motion whose transverse component does not
+act.)")
       .def("__getattr__",
            [](const Self&, const std::string& name) -> py::object {
              throw py::attribute_error(name == "sensitivity"
@@ -912,8 +978,10 @@ str
     An object with the columns of `to_dataframe`, their units, the events, the results by name, and the peaks of the
     floors.)")
       .def("__repr__", [](const Self& r) {
+        const std::string remark = remark_of(r);
         return "<StructureResponse: peak " + digits(r.response.peak) + " m, residual " + digits(r.response.residual) +
-               " m, " + std::to_string(r.response.events.size()) + " events>";
+               " m, " + std::to_string(r.response.events.size()) + " events" + (remark.empty() ? "" : "; " + remark) +
+               ">";
       });
 
   const auto bind_integrate_of = [&](auto* type, const char* doc) {
