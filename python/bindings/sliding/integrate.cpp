@@ -65,11 +65,15 @@ void bind_integrate(py::module_& m) {
       },
       py::arg("sliders"), py::arg("motions"));
   m.def(
-      "_linear_remark", [](const AnySlider& slider, double peak) { return linear_remark(slider, peak); },
-      py::arg("slider"), py::arg("peak"), "`Response.remark` on a pendulum that leaves its linear range.");
-  m.def(
-      "_linear_remark", [](const AnyPlanarSlider& s, double peak) { return pendulum_remark(mounting_of(s), peak); },
-      py::arg("slider"), py::arg("peak"));
+      "_linear_remark",
+      [](const py::object& slider, double peak) -> std::string {
+        if (py::isinstance<AnyPlanarSlider>(slider))
+          return pendulum_remark(mounting_of(slider.cast<const AnyPlanarSlider&>()), peak);
+        const auto found = slider_of(slider);
+        return found ? linear_remark(*found, peak) : "";
+      },
+      py::arg("slider"), py::arg("peak"),
+      "`Response.remark` on a pendulum that leaves its linear range; empty for anything else.");
   m.def("integrate", &integrate_any, py::arg("slider"), py::arg("motion"), py::kw_only(), py::arg("displacement") = 0.0,
         py::arg("velocity") = 0.0, py::arg("settle") = false, py::arg("contact") = "flight",
         py::arg("sliding_distance") = 0.0, py::arg("heat") = py::none(),

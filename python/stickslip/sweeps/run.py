@@ -242,9 +242,7 @@ def _linear_remark(table: SweepTable, sliders: Sequence[AnySwept]) -> str:
     peaks = np.nan_to_num(table.peak).max(axis=(1, 2))
     found = {}
     for i, one in enumerate(sliders):
-        if not isinstance(one, FlexibleSlope) and (
-            remark := _core._linear_remark(_interface(one), peaks[i])
-        ):
+        if remark := _core._linear_remark(_interface(one), peaks[i]):
             found[i] = remark
     if not found:
         return ""
