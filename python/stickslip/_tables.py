@@ -375,6 +375,29 @@ def impact_probabilities(ensemble: Ensemble) -> dict[str, Interval]:
     return found
 
 
+def ensemble_remark(ensemble: Ensemble) -> str:
+    """A sentence about limits of an ensemble; see `Ensemble.remark`."""
+    excitation: Any = ensemble.configuration.get("excitation")
+    while isinstance(excitation, dict) and "horizontal" in excitation:
+        excitation = excitation["horizontal"]
+    if not isinstance(excitation, dict) or excitation.get("zero_frequency") is not False:
+        return ""
+    spectrum = excitation["spectrum"]
+    reaches_zero = {
+        "white": True,
+        "kanai_tajimi": True,
+        "band_pass": spectrum.get("low") == 0,
+        "table": spectrum.get("omega", [1])[0] == 0 and spectrum.get("density", [0])[0] > 0,
+    }
+    returns = excitation["envelope"] is None and excitation["period"] <= excitation["samples"]
+    if not (returns and reaches_zero.get(spectrum["kind"], False)):
+        return ""
+    return (
+        "the motions have no line at zero frequency (zero_frequency is False): ground velocities"
+        " return to where they began, and displacements drift less than under the spectrum"
+    )
+
+
 def ensemble_html(ensemble: Ensemble) -> str:
     """A table of the main statistics of an ensemble."""
     members = ensemble.members
@@ -391,8 +414,7 @@ def ensemble_html(ensemble: Ensemble) -> str:
             s = ensemble.stationary
             rows.append(("variance of x'", _of_estimate(s.velocity_variance, "m²/s²")))
             rows.append(("growth of the variance of x", _of_estimate(s.growth_rate, "m²/s")))
-            if s.remark:
-                rows.append(("remark", s.remark))
+            rows += [("remark", one) for one in (s.remark, ensemble.remark) if one]
     return html_table("Ensemble", [], rows)
 
 
