@@ -24,6 +24,7 @@ from ._core import (
 from ._tables import Columns, Repeated, html_table, json_text
 from ._tabular import Tabular
 from .ensemble import run_ensemble
+from .runs.progress import shown
 from .theory import PLANAR_THEORIES, THEORIES, Coverage
 
 if TYPE_CHECKING:
@@ -359,8 +360,10 @@ def compare(
         Times of the comparison [s], increasing, above 0, at most the excitation's duration;
         multiples of its dt, or, under pulses, of a common step. Default: twelve evenly spaced
         times, of which printed tables show six.
-    members, seed, threads, progress
+    members, seed, threads
         As for `run_ensemble`.
+    progress : bool, optional
+        As for `run_ensemble`; then also over the theories.
     theories : sequence, optional
         The theories to compare; default `stickslip.theory.THEORIES`, in the plane
         `stickslip.theory.PLANAR_THEORIES`. Each has a unique `name`;
@@ -413,14 +416,17 @@ def compare(
     )
     predictions: dict[str, Moments] = {}
     refused: dict[str, str] = {}
-    for name, answer in answers.items():
-        if answer:
-            try:
-                predictions[name] = _predicted(asked[name], slider, excitation, time)
-            except (ValueError, ConvergenceError) as error:  # found only by the computation
-                refused[name] = str(error)
-        elif answer.excitation:
-            refused[name] = answer.reason
+    with shown(bool(progress), "compare", "theories") as report:
+        for done, (name, answer) in enumerate(answers.items()):
+            report(done, len(answers))
+            if answer:
+                try:
+                    predictions[name] = _predicted(asked[name], slider, excitation, time)
+                except (ValueError, ConvergenceError) as error:  # found only by the computation
+                    refused[name] = str(error)
+            elif answer.excitation:
+                refused[name] = answer.reason
+        report(len(answers), len(answers))
     return Comparison(time, ensemble, predictions, refused)
 
 

@@ -1329,3 +1329,18 @@ runpy.run_module("stickslip", run_name="__main__", alter_sys=True)"""
     assert (child.returncode, out) == (130, b"")
     assert err.decode() == f"stickslip: interrupted; {kept} has what was done\n"
     assert ss.Ensemble.load(kept).members > 0
+
+
+@pytest.mark.parametrize("command", ["slide", "sweep", "spectrum", "orientations"])
+def test_help_has_groups_and_an_example(capsys, command):
+    with pytest.raises(SystemExit):
+        main([command, "--help"])
+    lines = capsys.readouterr().out.splitlines()
+    assert {"records:", "output:"} <= set(lines)
+    assert any(line.startswith(f"For example, `stickslip {command} ") for line in lines)
+
+
+def test_commas_between_numbers_are_no_numbers(capsys):
+    with pytest.raises(SystemExit):
+        main(["slide", "sample:Kobe", "--mu", "0.1,0.2"])
+    assert "blanks separate several numbers" in capsys.readouterr().err

@@ -30,19 +30,19 @@ from ..motions.records import (
 from ..motions.samples import sample_files, sample_record
 from ..motions.stations import Part, stations_of
 from .output import FAILURES, check_outputs, complain, json_text, reason_of, write_csv
-from .parser import text_argument
+from .parser import group, text_argument
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["Batch", "StrictError", "add_files", "add_vertical"]
+__all__ = ["Batch", "StrictError", "add_files", "add_outputs", "add_vertical"]
 
 _SAMPLE = "sample:"  # before the name of a sample record, in place of a file
 
 
 def add_files(parser: argparse.ArgumentParser) -> None:
     """Add the arguments that `Batch` reads."""
-    add = parser.add_argument
+    add = group(parser, "records").add_argument
     add(
         "records",
         nargs="+",
@@ -105,7 +105,7 @@ def add_files(parser: argparse.ArgumentParser) -> None:
 
 def add_vertical(parser: argparse.ArgumentParser) -> None:
     """Add the arguments that let the vertical motion act, which `Batch` reads too."""
-    add = parser.add_mutually_exclusive_group().add_argument
+    add = group(parser, "records").add_mutually_exclusive_group().add_argument
     add(
         "--station",
         action="store_true",
@@ -119,6 +119,15 @@ def add_vertical(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help="vertical component of the record, from another file with the same samples",
     )
+
+
+def add_outputs(parser: argparse.ArgumentParser, each: str = "record") -> None:
+    """Add --plot, --csv and --json; `each` says of what there is a picture, if not of all."""
+    add = group(parser, "output").add_argument
+    several = f", one for each {each}" if each else ""
+    add("--plot", type=Path, metavar="FILE", help=f"picture (.png, .pdf, .svg){several}")
+    add("--csv", type=Path, metavar="FILE", help="table with units in its heading, exact doubles")
+    add("--json", action="store_true", help="one JSON document, SI units, exact doubles")
 
 
 class StrictError(Exception):

@@ -6,7 +6,7 @@ import argparse
 
 from .. import IsolatedStructure, PlanarSlider, Slider, Structure
 from .output import check_not_negative, check_positive
-from .parser import StoreAll, number, ratio
+from .parser import StoreAll, group, number, ratio
 
 __all__ = ["add_building", "building_on"]
 
@@ -15,7 +15,7 @@ _OPTIONS = ("story_masses", "story_stiffnesses", "base_mass", "story_damping_rat
 
 def add_building(parser: argparse.ArgumentParser) -> None:
     """Add the options that `building_on` reads."""
-    add = parser.add_argument
+    add = group(parser, "building").add_argument
     add(
         "--story-masses",
         nargs="+",

@@ -33,7 +33,9 @@ def add_fragility(commands: argparse._SubParsersAction) -> None:
         " interval over the records, the dispersion and its parts from records and from the"
         " friction, and the HCLPF, the PGA at 1 %. With --pga each record is scaled to each level"
         " and exceedances are counted; without it, the records count as they are (a cloud).",
-        epilog="--mu-beta makes the coefficient of friction lognormal, with the median --mu. A file"
+        epilog="For example, `stickslip fragility sample:all --mu 0.2 --pga 0.1 0.2 0.4 0.8 1.6"
+        " --thresholds 0.05`."
+        " --mu-beta makes the coefficient of friction lognormal, with the median --mu. A file"
         " that cannot be read is reported in one line on stderr; the others count, and the exit"
         " code is 1.",
     )

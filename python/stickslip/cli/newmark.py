@@ -46,7 +46,8 @@ def add_newmark(commands: argparse._SubParsersAction) -> None:
         " The names are SLAMMER's: normal is the reversed record, n = -record; inverse is the"
         " record itself. With --method coupled or decoupled, the sliding mass is a uniform shear"
         " column of the given height, shear-wave velocity, and damping ratio or reference strain.",
-        epilog="A file that cannot be read, and a displacement that cannot be computed, are"
+        epilog="For example, `stickslip newmark quakes --ky 0.05 0.1`."
+        " A file that cannot be read, and a displacement that cannot be computed, are"
         " reported in one line on stderr; the others are printed, and the exit code is 1.",
     )
     add = parser.add_argument

@@ -8,8 +8,8 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from .._text import printable
-from .batch import Batch, add_files
-from .output import add_outputs, column, complain
+from .batch import Batch, add_files, add_outputs
+from .output import column, complain
 from .parser import numbers, ratio
 from .slider import add_sliders, cells, described, heads, keyed, slider_of, variations
 
@@ -34,7 +34,8 @@ def add_orientations(commands: argparse._SubParsersAction) -> None:
         " of the peak and of the magnitude of the residual [cm], with the directions of the"
         " maxima: azimuths where the orientation is known, otherwise angles from the first"
         " component, clockwise. The vertical component acts, too.",
-        epilog="--mu, --degrees and the options of the slider take numbers or ranges"
+        epilog="For example, `stickslip orientations station.zip --mu 0.1`."
+        " --mu, --degrees and the options of the slider take numbers or ranges"
         " START:STOP:STEP; every combination is computed. A station that cannot be read or slid is"
         " reported in one line on stderr; the others are printed, and the exit code is 1.",
     )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import contextlib
 import csv
 import errno
@@ -20,7 +19,6 @@ from .._text import no_formula, printable
 
 __all__ = [
     "FAILURES",
-    "add_outputs",
     "check_not_negative",
     "check_outputs",
     "check_positive",
@@ -85,15 +83,6 @@ def json_text(document: dict) -> str:
 
     document = {"stickslip": build_info()["version"], **finite(document)}
     return json.dumps(document, indent=2, allow_nan=False)
-
-
-def add_outputs(parser: argparse.ArgumentParser, each: str = "record") -> None:
-    """Add --plot, --csv and --json; `each` says of what there is a picture, if not of all."""
-    add = parser.add_argument
-    several = f", one for each {each}" if each else ""
-    add("--plot", type=Path, metavar="FILE", help=f"picture (.png, .pdf, .svg){several}")
-    add("--csv", type=Path, metavar="FILE", help="table with units in its heading, exact doubles")
-    add("--json", action="store_true", help="one JSON document, SI units, exact doubles")
 
 
 def check_outputs(outputs: Iterable[tuple[str, Path]], records: Iterable[Path] = ()) -> None:

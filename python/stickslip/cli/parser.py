@@ -12,7 +12,17 @@ from typing import Any, NoReturn, TextIO
 from .._text import printable
 from .output import write, write_error
 
-__all__ = ["Parser", "StoreAll", "number", "numbers", "ratio", "ratios", "text_argument", "whole"]
+__all__ = [
+    "Parser",
+    "StoreAll",
+    "group",
+    "number",
+    "numbers",
+    "ratio",
+    "ratios",
+    "text_argument",
+    "whole",
+]
 
 _MOST_STEPS = 10_000  # in a range
 
@@ -36,6 +46,14 @@ class Parser(argparse.ArgumentParser):
             write(message, file)
         else:
             write_error(message)
+
+
+def group(parser: argparse.ArgumentParser, title: str) -> argparse._ArgumentGroup:
+    """The group of options under a title of the help."""
+    for known in parser._action_groups:
+        if known.title == title:
+            return known
+    return parser.add_argument_group(title)
 
 
 class Store(argparse.Action):
@@ -117,8 +135,10 @@ def _decimal(text: str) -> Decimal:
     try:
         return Decimal(text.strip())
     except InvalidOperation:
-        percent = "; percent is for ratios" if text.strip().endswith("%") else ""
-        raise argparse.ArgumentTypeError(f"must be a number, got {text!r}{percent}") from None
+        hint = "; percent is for ratios" if text.strip().endswith("%") else ""
+        if "," in text:
+            hint = "; blanks separate several numbers, and a point the decimals"
+        raise argparse.ArgumentTypeError(f"must be a number, got {text!r}{hint}") from None
 
 
 def _ratio(text: str) -> Decimal:

@@ -48,7 +48,8 @@ def add_records(commands: argparse._SubParsersAction) -> None:
         " the acceleration in the file, or that of --units if the file states none. The velocity is"
         " integrated from the record as it is, without baseline correction. For one file, or with"
         " --why, it also prints what was understood of each file, and where it stands.",
-        epilog="A file that cannot be read is reported in one line on stderr; the others are"
+        epilog="For example, `stickslip records quakes --why`."
+        " A file that cannot be read is reported in one line on stderr; the others are"
         " printed, and the exit code is 1.",
     )
     add = parser.add_argument

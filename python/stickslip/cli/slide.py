@@ -20,9 +20,9 @@ from .. import (
     integrate,
 )
 from .._text import printable
-from .batch import Batch, add_files, add_vertical
-from .output import add_outputs, check_outputs, column, complain
-from .parser import ratios
+from .batch import Batch, add_files, add_outputs, add_vertical
+from .output import check_outputs, column, complain
+from .parser import group, ratios
 from .slider import (
     add_planar,
     add_sliders,
@@ -91,7 +91,8 @@ def add_slide(commands: argparse._SubParsersAction) -> None:
         " slips (a reversal ends one slip and begins another). With --planar, peak and residual are"
         " distances from the start. Ground acceleration is given in g ="
         " 9.80665 m/s^2.",
-        epilog="--mu, --mu-static, --reach, --slope, --period, --damping-ratio, --stop-gap,"
+        epilog="For example, `stickslip slide quakes/*.AT2 --mu 0.1 0.2 --csv slid.csv`."
+        " --mu, --mu-static, --reach, --slope, --period, --damping-ratio, --stop-gap,"
         " --restitution and --scale take a number or a range START:STOP:STEP, which includes STOP,"
         " such as 0.05:0.6:0.05; every combination is computed."
         " A slider that does not come to rest (no friction; a caster that has escaped) is"
@@ -101,13 +102,15 @@ def add_slide(commands: argparse._SubParsersAction) -> None:
         " for an infinite value or an option that was not given. Bad options end the command with"
         " exit code 2 before any file is read.",
     )
-    add = parser.add_argument
     add_files(parser)
     add_sliders(parser)
     add_vertical(parser)
     add_planar(parser)
-    add("--scale", type=ratios, default=1.0, help="factor on the ground acceleration (default 1)")
-    sense = parser.add_mutually_exclusive_group().add_argument
+    motions = group(parser, "records")
+    motions.add_argument(
+        "--scale", type=ratios, default=1.0, help="factor on the ground acceleration (default 1)"
+    )
+    sense = motions.add_mutually_exclusive_group().add_argument
     sense(
         "--polarity",
         choices=("recorded", "reversed", "both"),
@@ -116,7 +119,7 @@ def add_slide(commands: argparse._SubParsersAction) -> None:
     )
     sense("--both", action="store_const", const="both", dest="polarity", help="--polarity both")
     add_outputs(parser)
-    add(
+    group(parser, "output").add_argument(
         "--animate",
         type=Path,
         metavar="FILE",

@@ -22,7 +22,7 @@ from .. import (
 )
 from .._core import _check_unit
 from .output import check_not_negative
-from .parser import StoreAll, number, numbers, ratio, ratios
+from .parser import StoreAll, group, number, numbers, ratio, ratios
 
 __all__ = [
     "add_contact",
@@ -75,7 +75,8 @@ _PENDULUMS: dict[int, Callable[..., MultiPendulum]] = {
 
 def add_sliders(parser: argparse.ArgumentParser) -> None:
     """Add the options that `variations` reads, except --scale, and --contact."""
-    parser.add_argument(
+    add = group(parser, "friction").add_argument
+    add(
         "--mu",
         nargs="+",
         action=StoreAll,
@@ -84,7 +85,7 @@ def add_sliders(parser: argparse.ArgumentParser) -> None:
         help="coefficients of friction [-] or ranges; a repeated value is used once",
     )
     add_slider(parser, ranges=True)
-    parser.add_argument(
+    add(
         "--radii",
         nargs="+",
         action=StoreAll,
@@ -94,7 +95,7 @@ def add_sliders(parser: argparse.ArgumentParser) -> None:
         " lower outer, upper outer) or a quintuple one (inner, middle, outer) [m]; --mu then has"
         " one coefficient for each",
     )
-    parser.add_argument(
+    add(
         "--capacities",
         nargs="+",
         action=StoreAll,
@@ -116,7 +117,7 @@ def add_slider(parser: argparse.ArgumentParser, ranges: bool = False) -> None:
     """
     length: Callable[[str], Any] = numbers if ranges else number
     part: Callable[[str], Any] = ratios if ranges else ratio
-    add = parser.add_argument
+    add = group(parser, "friction").add_argument
     laws = ("coulomb", "caster", "one-way", *(("pendulum",) if ranges else ()))
     add("--law", choices=laws, default="coulomb", help="friction law")
     add(
@@ -135,6 +136,7 @@ def add_slider(parser: argparse.ArgumentParser, ranges: bool = False) -> None:
     add(
         "--wheel-width", type=number, metavar="M", help="caster: width of a wheel [m]; with --trail"
     )
+    add = group(parser, "mounting and ground").add_argument
     add("--period", type=length, metavar="S", help="period of the mass on its spring [s]")
     add("--damping-ratio", type=part, metavar="Z", help="damping ratio; with --period")
     add("--slope", type=length, metavar="DEGREES", help="slope of the ground; downhill is forward")
@@ -154,7 +156,7 @@ def add_slider(parser: argparse.ArgumentParser, ranges: bool = False) -> None:
 
 def add_contact(parser: argparse.ArgumentParser) -> None:
     """Add --contact."""
-    parser.add_argument(
+    group(parser, "mounting and ground").add_argument(
         "--contact",
         choices=("flight", "clipped"),
         default="flight",
@@ -165,7 +167,7 @@ def add_contact(parser: argparse.ArgumentParser) -> None:
 
 def add_planar(parser: argparse.ArgumentParser) -> None:
     """Add --planar."""
-    parser.add_argument(
+    group(parser, "mounting and ground").add_argument(
         "--planar",
         action="store_true",
         help="slide in both horizontal directions at once: friction opposes the velocity vector;"

@@ -9,8 +9,8 @@ from typing import Any
 
 from .. import STANDARD_GRAVITY, ResponseSpectrum, response_spectrum
 from .._text import printable
-from .batch import Batch, Motion, add_files
-from .output import add_outputs, column
+from .batch import Batch, Motion, add_files, add_outputs
+from .output import column
 from .parser import numbers, ratio, ratios
 
 __all__ = ["add_spectrum"]
@@ -35,7 +35,8 @@ def add_spectrum(commands: argparse._SubParsersAction) -> None:
         " oscillators, in continuous time, exact for straight lines between samples. Prints it for"
         " a few periods (0 is a rigid oscillator: the PGA), or for those of --periods. Pictures,"
         " CSV and JSON have 100 periods from 0.01 to 10 s, or those of --periods.",
-        epilog="--periods, --damping and --scale take numbers or ranges START:STOP:STEP. A file"
+        epilog="For example, `stickslip spectrum sample:Kobe --plot spectrum.png`."
+        " --periods, --damping and --scale take numbers or ranges START:STOP:STEP. A file"
         " that cannot be read is reported in one line on stderr; the others are printed, and the"
         " exit code is 1.",
     )

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .. import GroundMotion
-from .batch import Batch, add_files, add_vertical
-from .output import add_outputs, column, complain
+from .batch import Batch, add_files, add_outputs, add_vertical
+from .output import column, complain
 from .parser import ratio
 from .slider import (
     add_planar,
@@ -51,7 +51,8 @@ def add_sweep(commands: argparse._SubParsersAction) -> None:
         " residual [cm]: mean, 16 %, median, 84 % and largest value. On one axis each record acts"
         " as recorded and reversed. With --planar, both horizontal components of each station act"
         " at once, and peak and residual are distances from the start.",
-        epilog="--mu and the options of the slider take numbers or ranges START:STOP:STEP; every"
+        epilog="For example, `stickslip sweep quakes/*.AT2 --mu 0.05:0.6:0.05 --plot sweep.png`."
+        " --mu and the options of the slider take numbers or ranges START:STOP:STEP; every"
         " combination is computed. A record that cannot be read or slid is reported in one line on"
         " stderr; the statistics are those of the others, and the exit code is 1. CSV and JSON"
         " have every response; in JSON the statistics are listed besides.",
