@@ -290,11 +290,13 @@ def filtered_casters(members: int = 4000) -> Iterator[list[str]]:
 # ---- the Laplacian density
 
 SOILS = [(15.0, 0.6), (9.0, 0.4), (5.0, 0.3)]
+OTHER_SOILS = [(15.0, 0.15), (15.0, 0.9), (15.0, 1.2)]
 LAPLACE = [
     # soil, sigma_n / a, spring, backward level
     *itertools.product(SOILS, (1.5, 3.0, 6.0), (0.0, 2.0, 6.0), (1.0,)),
     *itertools.product(SOILS, (1.5, 3.0, 6.0), (0.0, 2.0), (1.5, 2.0, 3.0)),
     *itertools.product(SOILS, (1.5, 3.0, 6.0), (0.0,), (1000.0,)),  # as good as one-way
+    *itertools.product(OTHER_SOILS, (1.5, 3.0), (0.0, 2.0), (1.0,)),
 ]
 LAPLACE_TIMES = (5.0, 20.0)
 
@@ -365,6 +367,8 @@ GROUNDS = {  # name: spectrum of a strength, the frequency of its center [rad/s]
     "Kanai-Tajimi, 5 rad/s, 0.6": lambda s: kanai_tajimi(s, 5.0, 0.6),
     "Kanai-Tajimi, 15 rad/s, 0.6": lambda s: kanai_tajimi(s, 15.0, 0.6),
     "Kanai-Tajimi, 30 rad/s, 0.9": lambda s: kanai_tajimi(s, 30.0, 0.9),
+    "Kanai-Tajimi, 30 rad/s, 1.2": lambda s: kanai_tajimi(s, 30.0, 1.2),
+    "Kanai-Tajimi, 30 rad/s, 1.5": lambda s: kanai_tajimi(s, 30.0, 1.5),
 }
 STRENGTHS = (1.2, 1.5, 2.0, 3.0)
 SPRINGS = (0.0, 1.0, 2.0, 3.0, 5.0, 8.0)

@@ -1,6 +1,7 @@
 """The tables of docs/features.md: each cell is tried, and says what the library does."""
 
 import contextlib
+import itertools
 import json
 import math
 import pickle
@@ -212,6 +213,52 @@ class Cells:
 
 COLUMNS = [name for name in vars(Cells) if not name.startswith("_")]
 
+
+class SystemCells(Cells):
+    """The same columns of a system that is no slider on one axis."""
+
+    def __init__(self, system, motion, folder):
+        self.slider, self.motion, self.folder = system, motion, folder
+        self.contact, self.response = "clipped", ss.integrate(system, motion)
+
+    def advance(self):
+        n = self.motion.acceleration
+        if self.motion.transverse is None:
+            state = self.slider.rest()
+        else:
+            state, n = ss.PlanarState(), np.column_stack([n, self.motion.transverse])
+        for begin, end in itertools.pairwise(n):
+            state = ss.advance(self.slider, state, self.motion.dt, begin, end)
+        last = self.response.displacement[len(n) - 1]
+        assert np.allclose(state.displacement, last, atol=1e-9 * self.response.peak)
+
+    def settle(self):
+        assert ss.integrate(self.slider, self.motion, settle=True).at_rest
+
+    def forces(self):
+        assert np.isfinite(self.response.force).all()
+
+    def effective_period(self):
+        assert self.response.effective_period > 0
+
+
+FLOORS = ss.Structure.shear_building(masses=[2e5] * 3, stiffnesses=[2.4e8] * 3, damping_ratio=0.03)
+ISOLATOR = ss.Slider(BLOCK, **SPRING)
+PAIR = ss.GroundMotion(AXIS, dt=0.05, transverse=AXIS[::-1])
+SYSTEMS = {
+    "`PlanarSlider`": (ss.PlanarSlider(ISOLATOR), PAIR),
+    "`IsolatedStructure`": (ss.IsolatedStructure(ISOLATOR, FLOORS, base_mass=2e5), QUAKE),
+    "`EquipmentOnFloor`": (ss.EquipmentOnFloor(ISOLATOR, FLOORS, floor=2, mass=100), QUAKE),
+    "`FlexibleSlope`": (
+        ss.FlexibleSlope(ky_g=0.05, height=20, shear_velocity=200, damping_ratio=0.1),
+        QUAKE,
+    ),
+}
+NOT_OF_SYSTEMS = {
+    "no": r"on one axis, got a PlanarSlider|sliders must be a Slider, a friction law|no attribute"
+    r"|sensitivities of structures are not"
+}
+
 SHAKING = ss.GaussianExcitation(ss.Spectrum.band_pass(s0=0.3, low=2, high=30), dt=0.05, samples=201)
 NOISE = ss.GaussianExcitation(ss.Spectrum.white(s0=0.3), dt=0.05, samples=201, zero_frequency=True)
 PULSES = ss.PoissonPulses(rate=0.5, half_width=0.5, sigma=1.0, duration=20.0)
@@ -226,6 +273,30 @@ THEORIES = {
     "`SlowlyVaryingParameters`": (theory.SlowlyVaryingParameters(), COSINE),
 }
 
+SOIL = ss.Spectrum.kanai_tajimi(s0=0.03, frequency=15, damping=0.6)
+CLOUGH = {"frequency": 15, "damping": 0.6, "filter_frequency": 1.5, "filter_damping": 0.6}
+ENVELOPE = ss.Envelope(build_up=2, strong_duration=4, decay_rate=0.5)
+EXCITATIONS = {
+    "white noise": NOISE,
+    "Kanai-Tajimi": SOIL,
+    "Clough-Penzien": ss.Spectrum.clough_penzien(s0=0.03, **CLOUGH),
+    "band": SHAKING,
+    "Kanai-Tajimi, envelope": ss.GaussianExcitation(SOIL, dt=0.05, samples=201, envelope=ENVELOPE),
+    "Poisson pulses": PULSES,
+    "Poisson pulses, envelope": ss.PoissonPulses(
+        rate=0.5, half_width=0.5, sigma=1.0, duration=20.0, envelope=ENVELOPE
+    ),
+    "harmonic": COSINE,
+}
+SLIDERS = {
+    "block": BLOCK,
+    "levels": LAWS["`Coulomb`, unequal levels"],
+    "spring": ss.Slider(BLOCK, **SPRING),
+    "caster": LAWS["`Caster`"],
+    "speed": LAWS["`Stribeck`"],
+    "static": LAWS["`StaticKinetic`"],
+}
+
 
 def cell(call, reasons):
     """'yes', or the letter of the reason for which the call is refused."""
@@ -233,7 +304,7 @@ def cell(call, reasons):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", RuntimeWarning)  # of figures
             call()
-    except (ValueError, TypeError, ss.ConvergenceError) as refusal:
+    except (ValueError, TypeError, AttributeError, ss.ConvergenceError) as refusal:
         text = str(refusal)
         for letter, pattern in reasons.items():
             if re.search(pattern, text):
@@ -257,6 +328,11 @@ def orbits_cell(slider):
         harmonic.orbits(slider, 2.0, 4.0)
 
     return cell(call, THEORY_REASONS)
+
+
+def covered(its_theory, excitation):
+    """The sliders that the theory covers under an excitation."""
+    return ", ".join(name for name, s in SLIDERS.items() if its_theory.covers(s, excitation))
 
 
 def page():
@@ -303,3 +379,45 @@ def test_every_theory_of_a_row_is_as_the_table_says(name):
     }
     found["`harmonic.orbits`"] = orbits_cell(slider)
     assert found == table("Theories")[name]
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_every_analysis_of_a_system_is_as_the_table_says(name, tmp_path):
+    cells = SystemCells(*SYSTEMS[name], tmp_path)
+    found = {column: cell(getattr(cells, column), NOT_OF_SYSTEMS) for column in COLUMNS}
+    assert found == table("Systems")[name]
+    assert list(table("Systems")) == list(SYSTEMS)
+
+
+@pytest.mark.parametrize("name", EXCITATIONS)
+def test_every_theory_under_an_excitation_covers_what_the_table_says(name):
+    found = {column: covered(one, EXCITATIONS[name]) for column, (one, _) in THEORIES.items()}
+    assert found == table("Excitations")[name]
+    assert list(table("Excitations")) == list(EXCITATIONS)
+
+
+def test_linearization_covers_the_structures_that_the_page_names():
+    one = theory.EquivalentLinearization()
+    covered_ones = [name for name, (system, _) in SYSTEMS.items() if one.covers(system, SOIL)]
+    assert covered_ones == ["`IsolatedStructure`", "`EquipmentOnFloor`"]
+    assert f"`EquivalentLinearization` covers {' and '.join(covered_ones)}" in " ".join(
+        page().split()
+    )
+    others = [one for one, _ in THEORIES.values() if one.name[:5] != "Equiv"]
+    assert not any(one.covers(system, SOIL) for one in others for system, _ in SYSTEMS.values())
+
+
+def test_the_theories_of_footnote_h_cover_sliding_one_way():
+    one_way = ss.Coulomb(mu=0.05, backward=math.inf)
+    found = [
+        name
+        for name, (one, _) in THEORIES.items()
+        if any(one.covers(one_way, excitation) for excitation in EXCITATIONS.values())
+    ]
+    said = re.search(r"`one_way=True` on level ground:(.*?) cover it", page(), re.DOTALL)[1]
+    assert re.findall(r"`\w+`", said) == found
+
+
+def test_theories_of_the_plane_take_the_law():
+    for one in (theory.WhiteNoise(dimensions=2), theory.EquivalentLinearization(dimensions=2)):
+        assert one.covers(BLOCK, 0.3) and not one.covers(ss.PlanarSlider(BLOCK), 0.3)

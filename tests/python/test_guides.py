@@ -70,7 +70,7 @@ def test_every_guide_has_code():
 
 @pytest.mark.parametrize("code", blocks("python"))
 def test_the_python_runs(code, empty, capsys):
-    if "plot" in code:
+    if "plot" in code or "animate" in code:
         pytest.importorskip("matplotlib")
     exec(compile(code, "guide", "exec"), {"__name__": "guide"})
     assert "nan" not in capsys.readouterr().out
@@ -132,6 +132,17 @@ def test_the_c_and_the_fortran_are_valid(compiler, code, tmp_path):
     for file in files:  # the first one leaves its module in the folder
         command = [compiler, *options, f"-I{include}", f"-I{tmp_path}", file]
         subprocess.run(command, check=True, cwd=tmp_path)
+
+
+@pytest.mark.parametrize("page", ["equipment", "isolation"])
+def test_what_is_printed_is_shown(page, capsys):
+    """Where text follows the code, it is what the code prints."""
+    text = (DOCS / "guides" / f"{page}.md").read_text(encoding="utf-8")
+    shown = re.findall(r"^```python\n([^`]*)^```\n\n```text\n(.*?)^```", text, re.S | re.M)
+    assert shown
+    for code, printed in shown:
+        exec(compile(code, page, "exec"), {"__name__": page})
+        assert capsys.readouterr().out == printed
 
 
 # ---- the tables, slid again

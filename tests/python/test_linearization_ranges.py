@@ -184,6 +184,9 @@ def test_the_laplacian_ranges_are_those_of_the_table():
         elif spring == "0":
             b = float(backward)
             lowest[b] = min(lowest[b], *(r for r, _ in pairs(rx)))
+    limits = page("limits.md")
+    assert f"with the Laplacian E[x^2] {min(x):.2f} to {max(x):.2f}, E[x'^2]" in limits
+    assert f"E[x'^2] {min(early + late):.2f} to {max(early + late):.2f} of" in limits
     text = page("equivalent_linearization.md")
     assert f"is {min(x):.2f} to {max(x):.2f} of the simulated one" in text
     assert f"velocity variance is {min(early):.2f} to {max(early):.2f} of it at 1.5" in text
@@ -214,7 +217,8 @@ def test_the_range_of_stationary_linearization_is_that_of_the_table():
         for strength, cell in zip(measured.STRENGTHS, ratios, strict=True):
             r, error = value(cell)
             if float(below) <= 0.25:
-                assert abs(r - 1) < 0.16 + error
+                damped = ground.endswith((", 1.2", ", 1.5"))
+                assert abs(r - 1) < (0.21 if damped else 0.16) + error
             elif strength in outside:
                 outside[strength] = min(outside[strength], r)
     said = re.search(

@@ -118,7 +118,7 @@ def test_the_paper_has_its_sections_and_a_length_that_the_journal_takes():
 NUMBERS = [
     (
         "0.1 % in the median and by up to 3.3 %",
-        "README.md",
+        "docs/coming_from.md",
         "0.1 % in the median and by up to 3.3 %",
     ),
     ("pySLAMMER 0.2.2", "docs/validation.md", "pySLAMMER 0.2.2"),
@@ -137,7 +137,7 @@ NUMBERS = [
         "temperature is integrated to 1e-7 of the scale",
     ),
     ("160,000 members agree with the exact theory within 0.6 %", "docs/trust.md", "within 0.6 %"),
-    ("within 4 % of simulation", "README.md", "within 4 % of simulation"),
+    ("within 4 % of simulation", "docs/pulse_chain.md", "within 4 % of simulations"),
     ("13 to 25 ns per sample", "README.md", "13 to 25 ns per sample"),
     (
         "takes 22 to 40 ns",

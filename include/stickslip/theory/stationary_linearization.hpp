@@ -62,8 +62,8 @@ struct StationaryPrediction {
 ///
 /// Measured range: without a spring, or on one whose natural frequency exceeds those of at most a quarter of the
 /// variance of the ground acceleration, the standard deviation of the velocity is right within 16 % from sigma_n / a
-/// = 1.2 on; on a stiffer spring it is too low, down to 0.5 of the simulated one at 1.2 and 0.8 at 3. The displacement
-/// is wrong if the acceleration has no content at zero frequency: friction generates such content, so that x drifts,
+/// = 1.2 on, within 21 % under Kanai-Tajimi noise with a damping ratio above 0.9; on a stiffer spring it is too low,
+/// down to 0.5 of the simulated one at 1.2 and 0.8 at 3. The displacement is wrong if the acceleration has no content at zero frequency: friction generates such content, so that x drifts,
 /// which the linear system cannot reproduce. On a spring the displacement is too small until sigma_n is about four
 /// times a. See docs/filtered_noise.md for numbers.
 ///

@@ -200,7 +200,7 @@ class Transport {
   /// @throws std::invalid_argument naming what is not covered or the rejected value
   /// @throws ConvergenceError  the tolerance is not reached within the largest grid; names the best value and its
   ///                           error. Not under pulses, where the error of the lattice is larger, and stated
-  /// Takes 0.3 to 2 s for a block, 2 to 8 s for static friction, 2 to 60 s with a spring, 3 to 300 s for a caster;
+  /// Takes 0.3 to 2 s for a block, up to 20 s at the edges of the range, 2 to 8 s for static friction, 2 to 60 s with a spring, 3 to 300 s for a caster;
   /// under pulses 0.2 to 5 s for a block, 2 to 25 s with a spring.
   TransportPrediction predict(const AnySlider& slider, const TransportExcitation& excitation,
                               std::span<const double> times, const std::function<void()>& progress = {}) const;

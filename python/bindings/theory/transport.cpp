@@ -443,8 +443,8 @@ ConvergenceError
 
 Notes
 -----
-Takes 0.3 to 2 s for a block, 2 to 8 s for static friction, 2 to 60 s with a spring, 3 to 300 s for a caster; under pulses
-0.2 to 5 s for a block, 2 to 25 s with a spring.)")
+Takes 0.3 to 2 s for a block, up to 20 s at the edges of the range, 2 to 8 s for static friction, 2 to 60 s with a
+spring, 3 to 300 s for a caster; under pulses 0.2 to 5 s for a block, 2 to 25 s with a spring.)")
       .def("stationary", &stationary_motion, py::arg("slider"), py::arg("excitation"), R"(Predict the stationary motion.
 
 Parameters
