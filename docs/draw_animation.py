@@ -1,6 +1,6 @@
 """Draws the animation of the README: python docs/draw_animation.py
 
-A cabinet, a cart and an isolated floor under Kobe 1995, each as `Response.animate` shows it, side
+A cabinet, a cart and an isolated floor under Kobe 1995, each as `plotting.animate` shows it, side
 by side in docs/images/kobe.gif.
 """
 
@@ -11,16 +11,18 @@ from pathlib import Path
 
 import stickslip as ss
 from PIL import Image
+from stickslip import plotting
 
 ROOT = Path(__file__).parents[1]
 PICTURE = ROOT / "docs" / "images" / "kobe.gif"
 TIME, FPS = (2.0, 17.0), 8  # [s], frames in a second
 WIDTH = 380  # of each [pixels]
+SIZE = (3.2, 2.8)  # of each [inches], so that its type can be read
 
 SLIDERS = {
-    "Cabinet, mu 0.2": ss.Slider(ss.Coulomb(mu=0.2)),
-    "Cart on casters, mu 0.05": ss.Slider(ss.Caster(mu=0.05, reach=0.1)),
-    "Isolated floor, R 2.2 m, mu 0.05": ss.FrictionPendulum(radius=2.2, mu=0.05),
+    "Cabinet": ss.Slider(ss.Coulomb(mu=0.2)),
+    "Cart on casters": ss.Slider(ss.Caster(mu=0.05, reach=0.1)),
+    "Isolated floor": ss.FrictionPendulum(radius=2.2, mu=0.05),
 }
 
 
@@ -31,13 +33,14 @@ def frames() -> list[Image.Image]:
     with tempfile.TemporaryDirectory() as folder:
         for name, slider in SLIDERS.items():
             response = ss.integrate(slider, quake)
-            moving = response.animate(time=TIME, fps=FPS, title=name)
+            moving = plotting.animate(response, time=TIME, fps=FPS, title=name, size=SIZE)
             column = []
-            with Image.open(moving.write(Path(folder) / "one.gif")) as picture:
+            file = Path(folder) / "one.gif"
+            moving.save(file, writer="pillow", fps=FPS, dpi=WIDTH / SIZE[0])
+            with Image.open(file) as picture:
                 for i in range(picture.n_frames):
                     picture.seek(i)
-                    frame = picture.convert("RGB")
-                    column.append(frame.resize((WIDTH, WIDTH * frame.height // frame.width)))
+                    column.append(picture.convert("RGB"))
             columns.append(column)
     joined = []
     for row in zip(*columns, strict=True):

@@ -5,11 +5,14 @@ import pytest
 import stickslip as ss
 
 pytest.importorskip("matplotlib", reason="pictures need matplotlib")
+from matplotlib.patches import Circle, Polygon
+from stickslip.plotting.planar import path_of
+
 image = pytest.importorskip("PIL.Image")
 
 T = np.arange(0, 2, 0.02)
 QUAKE = ss.GroundMotion(3 * np.sin(6 * T), dt=0.02, name="pulse")
-PAIR = ss.GroundMotion(3 * np.sin(6 * T), dt=0.02, transverse=2 * np.cos(4 * T))
+PAIR = ss.GroundMotion(3 * np.sin(6 * T), dt=0.02, transverse=2 * np.cos(4 * T), orientation="30")
 SLIDERS = {
     "block": ss.Slider(ss.Coulomb(mu=0.1)),
     "cart": ss.Slider(ss.Caster(mu=0.1, reach=0.1), stops=ss.Stops(gap=0.2, restitution=0.3)),
@@ -23,6 +26,12 @@ def test_the_object_is_where_the_response_is(name):
     r = ss.integrate(SLIDERS[name], QUAKE)
     animation = r.animate(time=(0.5, 1.5), fps=10)
     scene, way = animation._fig.axes
+    floor, body = scene.patches[0], next(p for p in scene.patches if p.get_zorder() == 4)
+
+    def middle(patch):
+        box = scene.transData.inverted().transform_bbox(patch.get_window_extent())
+        return (box.x0 + box.x1) / 2
+
     ground = []
     for i in (0, 4, 10):
         animation._func(i)
@@ -31,22 +40,85 @@ def test_the_object_is_where_the_response_is(name):
         assert dot.get_xdata()[0] == pytest.approx(t)
         x = r.at(t).displacement
         assert dot.get_ydata()[0] == pytest.approx(100 * x, abs=1e-9)
-        floor, body = scene.patches[:2]
-        middle = body.get_x() + body.get_width() / 2
-        ground.append(middle - x - floor.get_x())  # the same at all times: x is relative to it
-    assert ground == pytest.approx([ground[0]] * 3, abs=1e-9)
+        assert middle(body) - middle(floor) == pytest.approx(x, abs=1e-9)
+        ground.append(middle(floor))
+    assert np.ptp(ground) > 0.01
+
+
+def test_a_bearing_is_a_dish_with_a_puck_in_it():
+    """A puck stays within its dish; what a spring that is no pendulum draws back slides flat."""
+    flat = ss.Slider(ss.Coulomb(mu=0.05), period=2)
+    for slider, dishes in ((SLIDERS["floor"], 2), (SLIDERS["triple"], 4), (flat, 2)):
+        r = ss.integrate(slider, QUAKE, settle=True)
+        animation = r.animate(fps=20)
+        scene = animation._fig.axes[0]
+        parts = [patch for patch in scene.patches if isinstance(patch, Polygon)]
+        assert len(parts) == dishes + 2
+        assert not any(isinstance(patch, Circle) for patch in scene.patches)  # no wheels
+        dish, puck = parts[0], parts[dishes // 2]
+        if dishes == 2:
+            assert np.ptp(dish.get_xy()[:41, 1]) > 0 or slider is flat
+        for i in range(0, 40, 3):
+            animation._func(i)
+            outer, inner = (part.get_window_extent() for part in (dish, puck))
+            assert outer.x0 < inner.x0 < inner.x1 < outer.x1
+            assert inner.y0 > outer.y0
+
+
+def test_the_curve_of_a_part_has_its_scale_and_all_labels_lie_in_the_picture():
+    slider = ss.Slider(ss.Coulomb(mu=0.1), stops=ss.Stops(gap=0.02, restitution=0.3))
+    r = ss.integrate(slider, QUAKE)
+    figure = r.animate(time=(0, 0.3), fps=10)._fig
+    scene, way = figure.axes
+    assert [patch.get_label() for patch in scene.patches].count("stop") == 2
+    x = np.abs(r.at(np.linspace(0, 0.3, 100))["displacement"]).max()
+    factor = {"[mm]": 1e3, "[cm]": 1e2}[way.get_ylabel().split("\n")[1]]
+    assert x * factor < max(np.abs(way.get_ylim())) < 1.5 * x * factor
+    for animation in (r.animate(fps=5), r.animate(time=(0, 1)), r.animate(time=(0, 0.3), fps=10)):
+        page = animation._fig.bbox
+        for label in (way.yaxis.label, way.xaxis.label):
+            box = label.get_window_extent()
+            assert page.x0 <= box.x0 and page.y0 <= box.y0
 
 
 def test_in_the_plane_the_object_is_on_its_path():
-    r = ss.integrate(ss.PlanarSlider(ss.Coulomb(mu=0.1)), PAIR)
+    slider = ss.Slider(ss.Coulomb(mu=0.1), stops=ss.Stops(gap=0.05, restitution=0.3))
+    r = ss.integrate(ss.PlanarSlider(slider), PAIR)
     animation = r.animate(fps=5)
     animation._func(5)
     (plan,) = animation._fig.axes
-    (dot,) = [line for line in plan.lines if line.get_marker() == "s"]
+    assert "N" in [text.get_text() for text in plan.texts]
+    lines = {line.get_label(): line for line in plan.lines}
+    assert np.hypot(*lines["stop"].get_data()) == pytest.approx(5, rel=1e-12)
+    (dot,) = [line for line in plan.lines if line.get_marker() == "o"]
     last = max(r.time[-1], r.events["time"][-1])
     along, across = 100 * r.at(5 * last / round(5 * last)).displacement
     assert dot.get_xdata()[0] == pytest.approx(across, abs=1e-9)
     assert dot.get_ydata()[0] == pytest.approx(along, abs=1e-9)
+
+
+def test_a_path_in_the_plane_is_the_exact_motion_between_samples():
+    slider = ss.Slider(ss.Coulomb(mu=0.1), stops=ss.Stops(gap=0.05, restitution=0.3))
+    r = ss.integrate(ss.PlanarSlider(slider), PAIR, settle=True)
+    exact_at = np.linspace(0, r.time[-1], 3001)
+    exact = r.at(np.minimum(exact_at, r.events["time"][-1]))["displacement"]
+    t, place = path_of(r)
+
+    def error(t, place):
+        drawn = np.column_stack([np.interp(exact_at, t, place[:, k]) for k in (0, 1)])
+        return np.hypot(*(drawn - exact).T).max()
+
+    # Chords are off by h^2 / 8 times the acceleration, and 32 parts make h^2 1024 times smaller.
+    samples = error(r.time, r.displacement)
+    assert error(t, place) < samples / 100
+    figure = r.plot()
+    (path,) = (line for line in figure.axes[0].lines if line.get_label() == "path")
+    assert np.column_stack(path.get_data()) == pytest.approx(100 * place[:, ::-1], abs=1e-12)
+    film = r.animate(fps=5, time=(0.5, 1.5))
+    (path,) = (line for line in film._fig.axes[0].lines if line.get_label() == "path")
+    first = np.column_stack(path.get_data())[0, ::-1] / 100
+    assert first == pytest.approx(r.at(0.5).displacement, abs=1e-3)
+    assert len(path.get_xdata()) > 1000
 
 
 def test_files_have_all_frames(tmp_path):

@@ -73,7 +73,7 @@ SLIDERS = {
     ),
     "pendulum": (
         ss.FrictionPendulum(radius=2, mu=0.05),
-        "slip level 0.0500 g, pendulum, period 2.84 s",
+        "slip level 0.0500 g, pendulum, radius 2.00 m, period 2.84 s",
         {"pendulum": True},
     ),
     "stops": (

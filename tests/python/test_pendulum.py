@@ -219,12 +219,16 @@ def test_pictures_show_the_corners_and_the_surfaces():
     axes = loop.plot().axes[0]
     assert len(axes.lines[1].get_xdata()) == len(loop.corners)
     # The five regimes, by the surfaces that slide, from bottom to top; some occur twice.
-    assert {t.get_text() for t in axes.texts} == {"2 3", "1 3", "1 4"}
+    named = {t.get_text() for t in axes.texts}
+    assert named == {
+        *("2 3", "1 3", "1 4"),
+        "numbers: the surfaces that slide,\ncounted from the bottom",
+    }
     assert loop.moving.shape == (len(loop.corners), 4)
     assert (loop.moving.sum(axis=1) == 2).all()
     r = ss.integrate(FIVE, QUAKE)
     assert len(plot_surfaces(r).axes[0].lines) == 6
-    assert "pendulum of 6 surfaces" in " ".join(
+    assert "quintuple pendulum, mu" in " ".join(
         t.get_text() for t in r.plot().axes[0].texts
     ).replace("\n", " ")
 

@@ -611,3 +611,113 @@ def test_pictures_fit_into_figures_of_pyplot():
         content = io.BytesIO()
         picture.savefig(content)
         assert content.getvalue().startswith(b"\x89PNG")
+
+
+# ---- structures
+
+
+BUILDING = ss.Structure.shear_building(
+    masses=[1, 1, 1], stiffnesses=[900, 800, 700], damping_ratio=0.03
+)
+
+
+def test_the_plot_of_a_structure_names_it_and_has_its_base_stops_sticks_and_peak():
+    bearing = ss.Slider(
+        ss.Coulomb(mu=0.03),
+        period=3,
+        pendulum=True,
+        stops=ss.Stops(gap=0.02, restitution=0.3),
+    )
+    r = ss.integrate(ss.IsolatedStructure(bearing, BUILDING, base_mass=1), motion(), settle=True)
+    figure = r.plot()
+    top, accelerations, drifts = figure.axes
+    assert "isolated structure of 3 floors, slip level 0.0300 g, pendulum" in texts(top)
+    assert "radius 2.24 m" in texts(top).replace("\n", " ")
+    assert f"peak {100 * r.peak:.3g}" in texts(top) and "residual" in texts(top)
+    stops = [line.get_ydata()[0] for line in top.lines if line.get_label() == "stop"]
+    assert sorted(stops) == pytest.approx([-2, 2])
+    (bands,) = (c for c in top.collections if c.get_label() == "stuck")
+    assert len(bands.get_paths()) == len(plotting.sticks(r)) > 1
+    peaks, floor = accelerations.lines[0].get_data()
+    assert list(floor) == [0, 1, 2, 3]
+    expected = [r.peak_base_acceleration, *r.floors.peak_acceleration]
+    assert peaks * G == pytest.approx(expected, rel=1e-14)
+    assert accelerations.get_xlabel().endswith("[g]")
+    assert accelerations.get_yticklabels()[0].get_text() == "base"
+    assert drifts.get_xlabel().endswith("[mm]")
+    assert drifts.lines[0].get_xdata() == pytest.approx(1e3 * r.floors.peak_drift, rel=1e-14)
+    for panel in (accelerations, drifts):
+        x, y = panel.lines[0].get_data()
+        assert panel.get_xlim()[1] > x.max()
+        assert panel.get_ylim()[0] < y.min() and y.max() < panel.get_ylim()[1]
+        assert not panel.lines[0].get_clip_on()
+    assert not outside(figure)
+
+
+def test_equipment_stands_on_its_floor_and_a_slope_has_none():
+    r = ss.integrate(ss.EquipmentOnFloor(ss.Coulomb(mu=0.05), BUILDING, floor=2), motion())
+    top, accelerations, _ = r.plot().axes
+    assert "equipment on floor 2 of 3, slip level 0.0500 g" in texts(top)
+    (mark,) = accelerations.texts
+    x, y = mark.xy
+    assert (mark.get_text(), y) == ("equipment", 2)
+    assert x * G == pytest.approx(r.floors.peak_acceleration[1])
+    assert accelerations.get_yticklabels()[0].get_text() == "ground"
+    assert accelerations.lines[0].get_xdata()[0] * G == pytest.approx(motion().peak_acceleration)
+    slope = ss.FlexibleSlope(ky_g=0.05, height=20, shear_velocity=200, damping_ratio=0.05)
+    (top,) = slope.coupled(motion()).plot().axes
+    assert "flexible slope, yield acceleration 0.0500 g, height 20.0 m" in texts(top)
+    assert "coupled" in texts(top)
+    assert "flexible slope" in texts(slope.decoupled(motion()).plot_hysteresis().axes[0])
+
+
+def test_the_remark_of_a_structure_is_over_its_plot():
+    small = ss.FrictionPendulum(radius=0.05, mu=0.03)
+    r = ss.integrate(ss.IsolatedStructure(small, BUILDING, base_mass=1), motion())
+    assert "beyond 0.2 of the radius" in r.remark
+    figure = r.plot()
+    shown = texts(figure.axes[0]).replace("\n", " ")
+    assert f"remark: {r.remark}" in shown
+    assert not outside(figure)
+
+
+def test_the_text_of_the_peak_is_not_on_a_stop():
+    slider = ss.Slider(ss.Coulomb(mu=0.05), stops=ss.Stops(gap=0.021, restitution=0.0))
+    figure = ss.integrate(slider, motion(), settle=True).plot()
+    way = figure.axes[2]
+    figure.canvas.draw()
+    (peak,) = (text for text in way.texts if text.get_text().startswith("peak"))
+    boxes = [text.get_window_extent() for text in way.texts if text.get_text().startswith("stop")]
+    box = peak.get_window_extent()
+    stops = [line for line in way.lines if line.get_label() == "stop"]
+    assert len(stops) == len(boxes) == 2
+    for line in stops:
+        (_, y), *_ = line.get_transform().transform(line.get_xydata())
+        assert not box.y0 < y < box.y1
+    assert not any(box.overlaps(other) for other in boxes)
+
+
+def test_a_description_breaks_between_its_items():
+    text = "slip level 0.0500 g, stops at 10.0 cm, restitution 0.300"
+    for room in range(120, 320, 10):
+        lines = plotting.styles.wrap_items(text, room, 8).splitlines()
+        assert " ".join(lines) == text
+        assert all(line.endswith(",") for line in lines[:-1])
+    assert plotting.styles.wrap_items(text, 40, 8).count("\n") > 4
+
+
+def test_the_ends_of_a_log_axis_have_labels_and_lines_end_where_nothing_slips():
+    levels = np.geomspace(0.03, 0.4, 12)
+    quakes = [motion(k).scaled(0.1 + 0.3 * k) for k in range(4)]
+    table = ss.sweep([ss.Coulomb(mu=m) for m in levels], quakes)
+    (axes,) = table.plot().axes
+    labels = [label.get_text() for label in axes.get_xticklabels()]
+    assert (labels[0], labels[-1]) == ("0.03", "0.4")
+    still = table.peak.reshape(12, -1) == 0
+    assert still.any()
+    thin = np.column_stack([line.get_ydata() for line in axes.lines[: still.shape[1]]])
+    assert (np.isnan(thin) == still).all()
+    (axes,) = plotting.plot_friction_sweep([0.1, 0.3], [[1, 0], [2, 1]], ["a", "b"]).axes
+    assert axes.yaxis.get_transform()._clip is False
+    labels = [label.get_text() for label in axes.get_xticklabels()]
+    assert (labels[0], labels[-1]) == ("0.1", "0.3")

@@ -141,7 +141,8 @@ def test_pictures(ensemble: ss.Ensemble) -> None:
     floors = accelerations.lines[0].get_ydata()
     np.testing.assert_array_equal(floors, range(4))  # the base is 0
     median = [one.value for one in ensemble.peak_floor_acceleration.quantile(0.5)]
-    np.testing.assert_array_equal(accelerations.lines[0].get_xdata()[1:], median)
+    shown = ss.STANDARD_GRAVITY * accelerations.lines[0].get_xdata()[1:]
+    np.testing.assert_allclose(shown, median, rtol=1e-14)
     np.testing.assert_array_equal(drifts.lines[0].get_ydata(), range(1, 4))
     assert "isolated structure" in figure._suptitle.get_text()
     assert len(ensemble.plot().axes) == 4
@@ -157,6 +158,7 @@ def test_the_floors_of_several_records_are_drawn_by_height() -> None:
     accelerations, drifts = plotting.plot_floors(responses).axes
     peaks = np.array([[r.peak_base_acceleration, *r.floors.peak_acceleration] for r in responses])
     median, *records = accelerations.lines
+    peaks /= ss.STANDARD_GRAVITY
     np.testing.assert_array_equal(median.get_xdata(), np.median(peaks, axis=0))
     assert len(records) == 9
     np.testing.assert_array_equal([line.get_xdata() for line in records], peaks)

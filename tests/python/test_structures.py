@@ -172,7 +172,7 @@ def test_figures() -> None:
     plotting = pytest.importorskip("stickslip.plotting")
     assert len(ss.integrate(EQUIPMENT, QUAKE).plot().axes) == 3
     assert len(ss.integrate(ss.IsolatedStructure(ss.Coulomb(mu=0.1), ONE), QUAKE).plot().axes) == 1
-    assert len(SLOPE.coupled(QUAKE).plot(title="dam").axes) == 3
+    assert len(SLOPE.coupled(QUAKE).plot(title="dam").axes) == 1  # a slope has no floors
     assert len(BUILDING.modes().plot().axes) == 1
     with pytest.raises(ValueError, match="no shapes"):
         plotting.plot_modes(ONE.modes())

@@ -5,24 +5,28 @@ from __future__ import annotations
 import math
 import os
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
-from matplotlib.axes import Axes
 from matplotlib.figure import FigureBase
-from matplotlib.patches import Circle, Rectangle
+from matplotlib.patches import Circle, Polygon, Rectangle
+from matplotlib.transforms import Affine2D
 from numpy.typing import NDArray
 
 from .._core import PlanarResponse, Response, Slider
 from .._files import replacing
 from .figures import new_figure
+from .panels import near_stops
+from .planar import draw_stop, make_square, name_directions, path_of
 from .styles import BLUE, GRAY, INK, PALE, VERMILION, put_title, style
-from .trajectory import window
+from .trajectory import window, within
 from .words import describe, unit_for
 
 _FRAMES = 2000  # at most
+_LATER = "#c4c4c4"  # what is still to come
 _SUFFIXES = (".gif", ".mp4", ".html")
 
 
@@ -90,13 +94,15 @@ def animate(
     speed: float = 1.0,
     fps: float = 15.0,
     title: str | None = None,
+    size: tuple[float, float] | None = None,
 ) -> Animation:
     """Show the object sliding on its moving floor, with the history of its displacement below.
 
     A block, a cart where the law is that of a caster, or a floor on bearings where a spring or a
     pendulum draws it back. It moves by the exact displacement at each frame; the floor moves by the
-    displacement of the ground, without its mean and linear trend. Both have the same scale. In the
-    plane: the path as on a map, with the object on it.
+    displacement of the ground, without its mean and linear trend. Both have the same scale. The
+    dishes of bearings are as wide as they must be, and deeper than they are. In the plane: the path
+    as on a map, with the middle of the object on it, a circular stop near it, and north.
 
     Parameters
     ----------
@@ -109,6 +115,8 @@ def animate(
         Frames in a second, from 1 to 60. There are at most 2,000 frames.
     title : str, optional
         Default: the name of the ground motion.
+    size : tuple of float, optional
+        Width and height [inches]; default: 6 x 4, and 6 x 5 in the plane.
 
     Returns
     -------
@@ -135,8 +143,9 @@ def animate(
     planar = isinstance(response, PlanarResponse)
     with style():
         draw = _in_plane if planar else _on_axis
-        figure, update = draw(response, times, title)
-        # Laid out once: every frame would take four times as long.
+        figure, update = draw(response, times, title, size or ((6, 5) if planar else (6, 4)))
+        # Laid out twice, for what the first changes; not at each frame, which would take longer.
+        figure.draw_without_rendering()
         figure.draw_without_rendering()
         figure.set_layout_engine("none")
     animation = Animation(figure, update, frames=len(times), interval=1000 / fps, blit=False)
@@ -167,28 +176,67 @@ def _states(response: Any, times: NDArray[np.float64]) -> NDArray[np.void]:
     return states
 
 
-def _on_axis(response: Any, times: NDArray[np.float64], title: str | None) -> tuple[Any, Any]:
-    figure = new_figure(6, 4)
+def _on_axis(
+    response: Any, times: NDArray[np.float64], title: str | None, inches: tuple[float, float]
+) -> tuple[Any, Any]:
+    figure = new_figure(*inches)
     scene, way = figure.subplots(2, 1, height_ratios=(1, 1.1))
     moved = _states(response, times)
     x, gap, stuck = moved["displacement"], moved["gap"], moved["stuck"]
     ground = _ground(response, times, None)
     span = max(np.ptp(ground), np.ptp(x), np.abs(x).max(), 1e-3)
     size = 0.8 * span  # of the object [m]: it is drawn in the scale of its displacement
-    middle = float(ground.mean())
-    scene.set_xlim(middle - 2.2 * span, middle + 2.2 * span)
-    scene.set_ylim(-0.35 * size, 1.9 * size)
+    on_floor, on_puck, on_body = Affine2D(), Affine2D(), Affine2D()
+
+    def add(patch: Any, frame: Affine2D, **options: Any) -> Any:
+        patch.set(transform=frame + scene.transData, **options)
+        return scene.add_patch(patch)
+
+    add(Rectangle((-8 * span, -0.3 * size), 16 * span, 0.3 * size), on_floor, color=PALE, zorder=1)
+    mark = Rectangle((-0.01 * size, -0.3 * size), 0.02 * size, 0.3 * size)
+    add(mark, on_floor, color=GRAY, zorder=2)
+    slider = response.slider
+    bearings = _Bearings(response, times, x, size) if _has_bearings(slider) else None
+    wheel = 0.12 * size if _law_name(slider) == "Caster" else 0.0
+    width, height = (0.7 * size, 1.2 * size)
+    foot, rise = 2 * wheel, np.zeros(len(times))
+    if bearings:
+        width, height = bearings.width, 0.45 * size
+        foot, rise = bearings.height, bearings.rise
+        for patch, frame in bearings.patches(on_floor, on_puck, on_body):
+            color = INK if frame is on_puck else GRAY
+            add(patch, frame, facecolor=color, edgecolor=INK, linewidth=0.6, zorder=3)
+    body = add(
+        Rectangle((-width / 2, foot), width, height),
+        on_body,
+        edgecolor=INK,
+        facecolor=BLUE,
+        linewidth=0.8,
+        zorder=4,
+    )
+    for side in (-1, 1) if wheel else ():
+        roller = Circle((side * 0.3 * width, wheel), wheel)
+        add(roller, on_body, facecolor=GRAY, edgecolor=INK, zorder=5)
+    reach = width / 2 + np.abs(x).max()
+    for place in near_stops(slider, response.peak):
+        side = math.copysign(1, place)
+        inside = place + side * width / 2
+        left = inside if side > 0 else inside - 0.08 * size
+        wall = Rectangle((left, 0), 0.08 * size, foot + 0.3 * size)
+        add(wall, on_floor, color=GRAY, zorder=3, label="stop")
+        reach = max(reach, abs(inside) + 0.08 * size)
+    middle = float(ground.max() + ground.min()) / 2
+    half = max(2.2 * span, 1.05 * (reach + np.ptp(ground) / 2))
+    scene.set_xlim(middle - half, middle + half)
+    scene.set_ylim(-0.3 * size, foot + height + rise.max() + 0.3 * size)
     scene.set_aspect("equal", adjustable="box")
     scene.axis("off")
-    put_title(scene, response.motion, title, describe(response.slider))
-    floor = Rectangle((0, -0.3 * size), 4 * span, 0.3 * size, color=PALE, zorder=1)
-    scene.add_patch(floor)
-    mark = scene.plot([0, 0], [-0.3 * size, 0], color=GRAY, linewidth=1.2, zorder=2)[0]
-    parts = _object(scene, response.slider, size)
-    bounds = _walls(scene, response.slider, size)
+    put_title(scene, response.motion, title, describe(slider))
 
+    curve = response._curve()
+    curve = curve[within(curve["time"], times[0], times[-1])]
     length, unit = unit_for(np.abs(x).max())
-    way.plot(response.time, length * response.displacement, color=PALE, linewidth=1)
+    way.plot(curve["time"], length * curve["displacement"], color=_LATER, linewidth=1)
     line = way.plot([], [], color=BLUE, linewidth=1.4)[0]
     dot = way.plot([], [], "o", color=VERMILION, markersize=5)[0]
     way.axhline(0, color=GRAY, linewidth=0.6, zorder=0)
@@ -197,85 +245,105 @@ def _on_axis(response: Any, times: NDArray[np.float64], title: str | None) -> tu
     way.set_ylabel(f"relative displacement\n[{unit}]")
 
     def update(i: int) -> list[Any]:
-        at = ground[i] + x[i]
-        floor.set_x(ground[i] - 2 * span)
-        mark.set_xdata([ground[i], ground[i]])
-        for patch, aside, height in parts:
-            _move(patch, at + aside, height + gap[i])
-        for offset, wall in bounds:
-            wall.set_x(ground[i] + offset)
-        parts[0][0].set_facecolor(BLUE if stuck[i] else VERMILION)
-        line.set_data(times[: i + 1], length * x[: i + 1])
+        on_floor.clear().translate(ground[i], 0)
+        on_body.clear().translate(ground[i] + x[i], gap[i] + rise[i])
+        if bearings:
+            on_puck.clear().translate(ground[i] + bearings.puck[i], bearings.lift[i])
+        body.set_facecolor(BLUE if stuck[i] else VERMILION)
+        shown = curve[curve["time"] < times[i]]
+        line.set_data(
+            np.append(shown["time"], times[i]), length * np.append(shown["displacement"], x[i])
+        )
         dot.set_data([times[i]], [length * x[i]])
-        return [floor, mark, line, dot]
+        return [line, dot, body]
 
     update(0)
     return figure, update
 
 
-def _move(patch: Any, x: float, y: float) -> None:
-    if isinstance(patch, Circle):
-        patch.set_center((x, y))
-    else:
-        patch.set_xy((x - patch.get_width() / 2, y))
+def _law_name(slider: Slider) -> str:
+    return type(getattr(slider.law, "sliding", slider.law)).__name__
 
 
-def _object(scene: Axes, slider: Slider, size: float) -> list[tuple[Any, float, float]]:
-    """What slides, the body first: patches, places beside x and heights over the floor [m]."""
-    law = type(getattr(slider.law, "sliding", slider.law)).__name__
-    wheels = law == "Caster"
-    bearings = slider.natural_frequency > 0 or law == "MultiPendulum"
-    radius = 0.12 * size
-    foot = 2 * radius if wheels else 0.15 * size if bearings else 0.0
-    width, height = (1.4 * size, 0.5 * size) if bearings else (0.7 * size, 1.2 * size)
-    body = Rectangle((0, 0), width, height, edgecolor=INK, facecolor=BLUE, linewidth=0.8, zorder=4)
-    scene.add_patch(body)
-    parts: list[tuple[Any, float, float]] = [(body, 0.0, foot)]
-    if wheels or bearings:
-        below, beside, layer = (radius, 0.3, 5) if wheels else (0.08 * size, 0.35, 3)
-        for aside in (-beside * width, beside * width):
-            roller = Circle((0, 0), below, facecolor=GRAY, edgecolor=INK, zorder=layer)
-            scene.add_patch(roller)
-            parts.append((roller, aside, below))
-    return parts
+def _has_bearings(slider: Slider) -> bool:
+    law = _law_name(slider)
+    return law == "MultiPendulum" or (slider.natural_frequency > 0 and law != "Caster")
 
 
-def _walls(scene: Axes, slider: Slider, size: float) -> list[tuple[float, Rectangle]]:
-    """The stops, by their place relative to the floor [m]."""
-    found = []
-    half = 0.7 * size if slider.natural_frequency > 0 else 0.35 * size
-    if slider.stops is None:
-        return found
-    for gap, side in ((slider.stops.gap, 1), (slider.stops.backward, -1)):
-        if math.isfinite(gap):
-            offset = side * (gap + half) - (0 if side > 0 else 0.08 * size)
-            wall = Rectangle((0, 0), 0.08 * size, 0.5 * size, color=GRAY, zorder=3)
-            scene.add_patch(wall)
-            found.append((offset, wall))
-    return found
+class _Bearings:
+    """Two bearings, each a dish on the floor and a puck in it; an upper dish if surfaces are many.
+
+    A dish is as wide as the displacements in it. It is drawn deeper than it is, or its curvature
+    could not be seen; that of a spring that is no pendulum is flat.
+    """
+
+    def __init__(
+        self, response: Response, times: NDArray[np.float64], x: NDArray[np.float64], size: float
+    ) -> None:
+        slider = response.slider
+        self.two = _law_name(slider) == "MultiPendulum"
+        self.puck = x
+        widest = response.peak
+        if self.two:
+            surfaces = np.asarray(response.surfaces.displacement)
+            lower = surfaces[: len(surfaces) // 2].sum(axis=0)
+            self.puck = np.interp(times, response.time, lower)
+            widest = max(np.abs(lower).max(), np.abs(response.displacement - lower).max())
+        self.thick, self.size = 0.06 * size, size
+        self.half = float(widest) + 0.17 * size
+        self.depth = 0.14 * size if self.two or slider.pendulum else 0.0
+        self.aside = self.half + 0.06 * size
+        self.lift = self.depth * (self.puck / self.half) ** 2
+        self.rise = self.lift + (self.depth * ((x - self.puck) / self.half) ** 2 if self.two else 0)
+        self.height = self.thick + 0.16 * size + (self.thick if self.two else 0)
+        self.width = 2 * self.aside + (2 * self.half if self.two else 0.4 * size)
+
+    def _dish(self, center: float, base: float, up: int) -> Polygon:
+        u = np.linspace(-1, 1, 41)
+        curved = base + up * (self.thick + self.depth * u**2)
+        corners = [(center + self.half, base), (center - self.half, base)]
+        return Polygon([*zip(center + self.half * u, curved), *corners])
+
+    def patches(
+        self, on_floor: Affine2D, on_puck: Affine2D, on_body: Affine2D
+    ) -> Iterator[tuple[Any, Affine2D]]:
+        for side in (-1, 1):
+            center = side * self.aside
+            yield self._dish(center, 0, 1), on_floor
+            if self.two:
+                yield self._dish(center, self.height, -1), on_body
+            u = np.linspace(-1, 1, 21)
+            across, bend = center + 0.16 * self.size * u, 0.06 * self.size * u**2
+            top = self.thick + 0.16 * self.size - (bend if self.two else 0 * u)
+            yield Polygon([*zip(across, self.thick + bend), *zip(across[::-1], top[::-1])]), on_puck
 
 
-def _in_plane(response: Any, times: NDArray[np.float64], title: str | None) -> tuple[Any, Any]:
-    figure: FigureBase = new_figure(5, 5)
+def _in_plane(
+    response: Any, times: NDArray[np.float64], title: str | None, inches: tuple[float, float]
+) -> tuple[Any, Any]:
+    figure: FigureBase = new_figure(*inches)
     plan = figure.subplots()
-    moved = _states(response, times)["displacement"]
-    length, unit = unit_for(np.abs(response.displacement).max())
+    length, _ = unit_for(response.peak)
     # As on a map: the axis upward, the transverse component to the right.
-    y, x = length * moved.T
-    plan.plot(
-        length * response.displacement[:, 1], length * response.displacement[:, 0], color=PALE
-    )
+    t, place = path_of(response)
+    part = within(t, times[0], times[-1])
+    t, way = t[part], length * place[part, ::-1]
+    at = length * _states(response, times)["displacement"][:, ::-1]
+    plan.plot(*way.T, color=_LATER, linewidth=1, label="path")
     line = plan.plot([], [], color=BLUE, linewidth=1.4)[0]
-    dot = plan.plot([], [], "s", color=VERMILION, markersize=9)[0]
-    plan.set_aspect("equal", adjustable="datalim")
-    plan.set_xlabel(f"transverse [{unit}]")
-    plan.set_ylabel(f"along the axis [{unit}]")
-    put_title(plan, response.motion, title, describe(response.slider))
+    dot = plan.plot([], [], "o", color=VERMILION, markersize=8, zorder=4)[0]
+    draw_stop(plan, response, length)
+    if response.peak > 0:
+        make_square(plan)
+    plan.set_aspect("equal", adjustable="box", anchor="W")  # north is at the right
+    name_directions(plan, response, length)
+    put_title(plan, response.motion, title, describe(response.slider.along_axis))
     clock = plan.text(0.02, 0.02, "", transform=plan.transAxes, color=GRAY)
 
     def update(i: int) -> list[Any]:
-        line.set_data(x[: i + 1], y[: i + 1])
-        dot.set_data([x[i]], [y[i]])
+        shown = way[t < times[i]]
+        line.set_data(*np.vstack([shown, at[i]]).T)
+        dot.set_data(*at[i : i + 1].T)
         clock.set_text(f"{times[i]:.1f} s")
         return [line, dot, clock]
 

@@ -10,7 +10,6 @@ from matplotlib.figure import Figure, FigureBase
 
 from .._core import (
     STANDARD_GRAVITY,
-    FlexibleSlope,
     MultiPendulum,
     Response,
     StructureResponse,
@@ -19,7 +18,7 @@ from .figures import Place, one_panel
 from .pendulum import name_regimes, sliding_surfaces
 from .styles import BLUE, GRAY, VERMILION, put_title, style
 from .trajectory import window
-from .words import describe, digits, unit_for
+from .words import describe, describe_system, digits, unit_for
 
 
 @overload
@@ -124,8 +123,7 @@ def plot_hysteresis(
 def _what_slides(response: Response | StructureResponse) -> str:
     if isinstance(response, Response):
         return describe(response.slider)
-    system = response.system
-    return "flexible slope" if isinstance(system, FlexibleSlope) else describe(system.slider)
+    return describe_system(response.system)
 
 
 def _secant(response: Response) -> tuple[float, float] | None:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 
-from .._core import STANDARD_GRAVITY, Response
-from .styles import AT_RIGHT, BLUE, GRAY, INK, VERMILION, dot_at_right
+from .._core import STANDARD_GRAVITY, Response, StructureResponse
+from .styles import AT_RIGHT, BLUE, GRAY, INK, PALE, VERMILION, dot_at_right
 from .trajectory import has_friction, slip_bounds, within, without_contact
-from .words import digits, in_places, unit_for, unit_of
+from .words import digits, in_places, unit_for
 
 
 def draw_ground(axes: Axes, response: Response, begin: float, end: float) -> None:
@@ -54,8 +57,13 @@ def note_levels(axes: Axes, response: Response) -> None:
         )
 
 
-def mark_peak(axes: Axes, t: np.ndarray, x: np.ndarray, unit: str, peak: float) -> None:
-    """Fit the vertical axis to the displacements, and mark the peak if it is among them."""
+def mark_peak(
+    axes: Axes, t: np.ndarray, x: np.ndarray, unit: str, peak: float, stops: Sequence[float] = ()
+) -> None:
+    """Fit the vertical axis to the displacements, and mark the peak if it is among them.
+
+    Its text is beyond the peak, and beyond a stop that is near it.
+    """
     at = np.argmax(np.abs(x))
     up = x[at] >= 0
     low, high = x.min(), x.max()
@@ -71,9 +79,13 @@ def mark_peak(axes: Axes, t: np.ndarray, x: np.ndarray, unit: str, peak: float) 
         return
     place = (t[at] - begin) / (end - begin)
     axes.plot(t[at], x[at], "o", color=VERMILION, markersize=5, zorder=4)
+    beyond = max(
+        (abs(y) for y in stops if (y >= 0) == up and abs(y - x[at]) < height / 4), default=0
+    )
+    beyond = max(beyond, abs(x[at]))
     axes.annotate(
         f"peak {digits(abs(x[at]))} {unit} at {digits(t[at])} s",
-        (t[at], x[at]),
+        (t[at], beyond if up else -beyond),
         xytext=(0, 7 if up else -7),
         textcoords="offset points",
         ha="left" if place < 0.2 else "right" if place > 0.8 else "center",
@@ -85,7 +97,7 @@ def mark_peak(axes: Axes, t: np.ndarray, x: np.ndarray, unit: str, peak: float) 
 
 def mark_end(
     axes: Axes,
-    response: Response,
+    response: Response | StructureResponse,
     t: np.ndarray,
     x: np.ndarray,
     length: float,
@@ -109,30 +121,46 @@ def mark_end(
     )
 
 
-def draw_stops(axes: Axes, response: Response, length: float, largest: float) -> None:
-    stops = response.slider.stops
-    if stops is None:
-        return
-    near = [
-        place * length
-        for place in (stops.gap, -stops.backward)
-        if abs(place) <= 1.25 * largest  # else the motion would be drawn small
-    ]
+def near_stops(slider: Any, largest: float) -> list[float]:
+    """The stops [m] that a displacement of up to `largest` comes near; others would shrink it."""
+    if slider.stops is None:
+        return []
+    places = (slider.stops.gap, -slider.stops.backward)
+    return [place for place in places if abs(place) <= 1.25 * largest]
+
+
+def draw_stops(axes: Axes, stops: Sequence[float], unit: str, peak_time: float) -> None:
+    """Draw stops as lines, named at the left or right edge, away from the peak."""
     low, high = axes.get_ylim()
     room = 0.14 * (high - low)
-    axes.set_ylim(min([low, *(y - room for y in near)]), max([high, *(y + room for y in near)]))
-    for y in near:
+    axes.set_ylim(min([low, *(y - room for y in stops)]), max([high, *(y + room for y in stops)]))
+    begin, end = axes.get_xlim()
+    left = peak_time > (begin + end) / 2
+    for y in stops:
         axes.axhline(y, color=INK, linewidth=1.2, label="stop", zorder=1)
         axes.annotate(
-            f"stop {digits(y)} {unit_of(length)}",
-            (1, y),
+            f"stop {digits(y)} {unit}",
+            (0 if left else 1, y),
             xycoords=("axes fraction", "data"),
-            xytext=(-3, -2 if y < 0 else 2),  # beyond the stop, where nothing moves
+            xytext=(3 if left else -3, -2 if y < 0 else 2),  # beyond the stop, where nothing moves
             textcoords="offset points",
-            ha="right",
+            ha="left" if left else "right",
             va="top" if y < 0 else "bottom",
             fontsize=8,
         )
+
+
+def shade_sticks(axes: Axes, spans: np.ndarray) -> None:
+    """Shade the intervals in which the slider sticks."""
+    axes.broken_barh(
+        np.column_stack([spans[:, 0], np.diff(spans)[:, 0]]),
+        (0, 1),
+        transform=axes.get_xaxis_transform(),
+        color=PALE,
+        linewidth=0,
+        zorder=0,
+        label="stuck",
+    )
 
 
 def draw_normal_force(

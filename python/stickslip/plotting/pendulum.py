@@ -103,6 +103,18 @@ def name_regimes(
         middle = ((x[i] + x[i + 1]) / 2, (force[i] + force[i + 1]) / 2)
         text = axes.annotate(name, middle, (4, -10), textcoords="offset points", fontsize=8)
         text.set_path_effects([withStroke(linewidth=2.5, foreground="white")])
+    if len(named) > 1:
+        axes.annotate(
+            "numbers: the surfaces that slide,\ncounted from the bottom",
+            (1, 0),
+            xytext=(-3, 3),
+            xycoords="axes fraction",
+            textcoords="offset points",
+            ha="right",
+            va="bottom",
+            color=GRAY,
+            fontsize=8,
+        )
 
 
 @overload

@@ -12,7 +12,8 @@ from matplotlib.text import OffsetFrom
 from .. import _core
 from .._core import PlanarResponse
 from .figures import Place, new_figure
-from .styles import AT_RIGHT, BLUE, GRAY, INK, PALE, VERMILION, put_title, style
+from .panels import shade_sticks
+from .styles import AT_RIGHT, BLUE, GRAY, INK, VERMILION, put_title, style
 from .trajectory import sticks, window
 from .words import describe, digits, in_places, unit_for, unit_of
 
@@ -76,21 +77,13 @@ def plot_planar_response(
         figure = figure or new_figure(7, 8.5)
         plan, axis, transverse = figure.subplots(3, height_ratios=(3.2, 1, 1))
         transverse.sharex(axis)
-        t, place, _ = _path_of(response)
+        t, place = path_of(response)
         length, unit = unit_for(response.peak)
         put_title(plan, response.motion, title, describe(response.slider.along_axis))
         _draw_map(plan, response, place, length, unit)
         spans = sticks(response)
         for k, (panel, name) in enumerate(((axis, "axis"), (transverse, "transverse"))):
-            panel.broken_barh(
-                np.column_stack([spans[:, 0], np.diff(spans)[:, 0]]),
-                (0, 1),
-                transform=panel.get_xaxis_transform(),
-                color=PALE,
-                linewidth=0,
-                zorder=0,
-                label="stuck",
-            )
+            shade_sticks(panel, spans)
             panel.plot(t, place[:, k] * length, color=BLUE, linewidth=1.1)
             panel.axhline(0, color=GRAY, linewidth=0.6, zorder=0)
             panel.set_ylabel(f"{name}\n[{unit}]")
@@ -126,7 +119,6 @@ def _draw_map(
     plan: Axes, response: PlanarResponse, place: np.ndarray, length: float, unit: str
 ) -> None:
     """Draw the path with the axis upward and the transverse direction to the right."""
-    azimuth = _core._azimuth_of(response.motion.orientation)
     right, up = place[:, 1] * length, place[:, 0] * length
     plan.plot(right, up, color=BLUE, linewidth=1.0, label="path")
     plan.plot(right[0], up[0], "+", color=INK, markersize=9, zorder=3, label="start")
@@ -146,11 +138,7 @@ def _draw_map(
             zorder=3,
             label="rests",
         )
-    stops = response.slider.stops
-    if stops is not None and response.peak > stops.gap / 1.25:  # else the path would be drawn small
-        turn = np.linspace(0, 2 * np.pi, 361)
-        gap = stops.gap * length
-        plan.plot(gap * np.cos(turn), gap * np.sin(turn), color=INK, linewidth=1.2, label="stop")
+    draw_stop(plan, response, length)
     end = response.residual * length
     name = "residual" if response.at_rest else "still sliding"
     distance = in_places(float(np.hypot(*response.residual)), response.peak, length)
@@ -171,24 +159,39 @@ def _draw_map(
             label=f"peak {digits(response.peak * length)} {unit}\n"
             f"at {digits(response.peak_time)} s{where}",
         )
-        _make_square(plan)
+        make_square(plan)
     else:
         plan.annotate("never slips", (0.5, 0.6), xycoords="axes fraction", ha="center", color=GRAY)
         plan.set(xlim=(-1, 1), ylim=(-1, 1))
     plan.set_aspect("equal", adjustable="box", anchor="W")
+    name_directions(plan, response, length)
+    legend = plan.legend(loc="upper left", bbox_to_anchor=(1, 0.82), fontsize=8, borderaxespad=0.4)
+    legend.set_in_layout(False)  # there is room at the right of the square
+
+
+def draw_stop(plan: Axes, response: PlanarResponse, length: float) -> None:
+    """Draw a circular stop that the path comes near; else the path would be drawn small."""
+    stops = response.slider.stops
+    if stops is not None and response.peak > stops.gap / 1.25:
+        turn = np.linspace(0, 2 * np.pi, 361)
+        gap = stops.gap * length
+        plan.plot(gap * np.cos(turn), gap * np.sin(turn), color=INK, linewidth=1.2, label="stop")
+
+
+def name_directions(plan: Axes, response: PlanarResponse, length: float) -> None:
+    """Name the axes of a map, with their azimuths and an arrow to the north if they are known."""
+    azimuth = _core._azimuth_of(response.motion.orientation)
     sides = ("", "") if azimuth is None else (_toward(azimuth), _toward(azimuth + 90))
     downhill = ", downhill" if response.slider.slope_degrees > 0 else ""
     plan.set_ylabel(f"along the axis{sides[0]}{downhill} [{unit_of(length)}]")
     plan.set_xlabel(f"transverse{sides[1]} [{unit_of(length)}]")
     plan.axhline(0, color=GRAY, linewidth=0.5, zorder=0)
     plan.axvline(0, color=GRAY, linewidth=0.5, zorder=0)
-    legend = plan.legend(loc="upper left", bbox_to_anchor=(1, 0.82), fontsize=8, borderaxespad=0.4)
-    legend.set_in_layout(False)  # there is room at the right of the square
     if azimuth is not None:
         _draw_north(plan, azimuth)
 
 
-def _make_square(plan: Axes) -> None:
+def make_square(plan: Axes) -> None:
     """Give both directions of the map the same range, around what is drawn."""
     low, high = (np.array(bound) for bound in (plan.dataLim.min, plan.dataLim.max))
     center, half = (low + high) / 2, 0.54 * max(high - low)
@@ -218,23 +221,16 @@ def _draw_north(plan: Axes, azimuth: float) -> None:
     plan.annotate("N", (1, 1), xytext=tuple(center + 23 * toward), ha="center", va="center", **at)
 
 
-def _path_of(response: PlanarResponse) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Times [s], displacements [m] and velocities [m/s] to draw: samples, events and the tail.
+def path_of(response: PlanarResponse) -> tuple[np.ndarray, np.ndarray]:
+    """Times [s] and displacements [m] to draw: samples, events, the tail, and the curve between.
 
-    In the tail, after the last sample, there are 31 more between events.
+    Where the slider moves, up to 31 points, 100,000 in all, are between any two of them.
     """
-    events, last = response.events, response.time[-1]
-    t = np.concatenate([response.time, events["time"]])
-    x = np.concatenate([response.displacement, events["displacement"]])
-    v = np.concatenate([response.velocity, events["velocity"]])
-    order = np.argsort(t, kind="stable")
-    t, x, v = t[order], x[order], v[order]
-    knots = np.flatnonzero((t[:-1] >= last) & (np.diff(t) > 0))
-    if not len(knots):
-        return t, x, v
-    parts = np.linspace(0, 1, 33)[1:-1]
-    between = response.at((t[knots, None] + np.diff(t)[knots, None] * parts).ravel())
-    where = np.repeat(knots + 1, len(parts))
-    dense = (between[name] for name in ("time", "displacement", "velocity"))
-    t, x, v = (np.insert(a, where, b, axis=0) for a, b in zip((t, x, v), dense))
-    return t, x, v
+    events = response.events
+    t = np.unique(np.concatenate([response.time, events["time"]]))
+    last = events["time"][-1]  # it is at rest after it
+    moves = ~response.at(np.minimum((t[:-1] + t[1:]) / 2, last))["stuck"]
+    parts = int(np.clip(100_000 // max(moves.sum(), 1), 2, 32))
+    between = t[:-1][moves, None] + np.diff(t)[moves, None] * np.arange(1, parts) / parts
+    t = np.sort(np.concatenate([t, between.ravel()]))
+    return t, response.at(np.minimum(t, last))["displacement"]

@@ -17,7 +17,9 @@ from .panels import (
     draw_stops,
     mark_end,
     mark_peak,
+    near_stops,
     note_levels,
+    shade_sticks,
 )
 from .styles import (
     AT_RIGHT,
@@ -25,7 +27,6 @@ from .styles import (
     COLORS,
     GRAY,
     INK,
-    PALE,
     dot_at_right,
     put_title,
     room_over,
@@ -122,16 +123,7 @@ def plot_response(
                 ground.plot(t, bound, color=BLUE, linewidth=0.9, label=f"slip level {edge}")
         note_levels(ground, response)
 
-        spans = sticks(response)
-        speed.broken_barh(
-            np.column_stack([spans[:, 0], np.diff(spans)[:, 0]]),
-            (0, 1),
-            transform=speed.get_xaxis_transform(),
-            color=PALE,
-            linewidth=0,
-            zorder=0,
-            label="stuck",
-        )
+        shade_sticks(speed, sticks(response))
         speed.plot(t, v * fast, color=INK, linewidth=0.9)
         if not v.any():
             speed.set_ylim(-1, 1)
@@ -143,9 +135,10 @@ def plot_response(
         way.axhline(0, color=GRAY, linewidth=0.6, zorder=0)
         way.set_ylabel(f"relative displacement\n[{unit}]")
         way.set_xlim(begin, end)
-        mark_peak(way, t, x * length, unit, peak * length)
+        stops = [length * y for y in near_stops(response.slider, np.abs(x).max())]
+        mark_peak(way, t, x * length, unit, peak * length, stops)
         mark_end(way, response, t, x, length, unit, end)
-        draw_stops(way, response, length, np.abs(x).max())
+        draw_stops(way, stops, unit, t[np.abs(x).argmax()])
         if below:
             draw_normal_force(below[0], response, curve, begin, end)
         if lifted:

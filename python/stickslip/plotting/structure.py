@@ -6,16 +6,26 @@ from collections.abc import Sequence
 from typing import Any, overload
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 from numpy.typing import NDArray
 
-from .._core import Ensemble, StructureResponse
+from .._core import (
+    STANDARD_GRAVITY,
+    Ensemble,
+    EquipmentOnFloor,
+    FlexibleSlope,
+    StructureResponse,
+)
 from .._tables import has_drifts, has_floors
 from .figures import Place, new_figure
+from .panels import draw_stops, mark_end, mark_peak, near_stops, shade_sticks
 from .styles import BLUE, COLORS, GRAY, VERMILION, put_figure_title, put_title, style
-from .words import describe_ensemble, unit_for
+from .trajectory import sticks, window
+from .words import describe_ensemble, describe_system, unit_for
 
 _BANDS = (0.05, 0.16, 0.5, 0.84, 0.95)
+_ACCELERATION, _DRIFT = "largest absolute acceleration [g]", "largest drift [mm]"
 
 
 @overload
@@ -31,6 +41,10 @@ def plot_structure_response(
 ) -> FigureBase:
     """Plot the displacement of the sliding interface, and the peaks of the floors by height.
 
+    The first panel shades the sticks, marks peak and residual, and draws stops near the
+    displacement as lines; the remark of the response is over it. Of equipment, the floor that it
+    stands on is marked.
+
     Parameters
     ----------
     response : StructureResponse
@@ -43,9 +57,12 @@ def plot_structure_response(
     -------
     matplotlib Figure or SubFigure
         With these axes: displacement over time and, if the structure has floors, largest absolute
-        acceleration and, if its influence is ones, largest drift by floor.
+        acceleration [g], from the base up, or from the ground where equipment slides on a floor,
+        and, if its influence is ones, largest drift [mm] by floor. A `FlexibleSlope` has no floors.
     """
-    floors = response.floors if has_floors(response) else None
+    system = response.system
+    slope = isinstance(system, FlexibleSlope)  # its column has a top, but no floors
+    floors = response.floors if has_floors(response) and not slope else None
     with style():
         figure = figure or new_figure(7, 5.5 if floors is not None else 3)
         if floors is None:
@@ -53,26 +70,62 @@ def plot_structure_response(
         else:
             grid = figure.add_gridspec(2, 2, height_ratios=(1, 1.3))
             top = figure.add_subplot(grid[0, :])
-        put_title(top, response.motion, title)
-        length, unit = unit_for(response.peak)
-        top.axhline(0, color=GRAY, linewidth=0.6, zorder=0)
-        top.plot(response.time, response.displacement * length, color=BLUE)
-        top.set_xlabel("time [s]")
-        top.set_ylabel(f"displacement of the interface\n[{unit}]")
+        _draw_interface(top, response, title)
         if floors is not None:
-            number = np.arange(1, len(floors.peak_acceleration) + 1)
-            panels = [(floors.peak_acceleration, "largest absolute acceleration [m/s²]")]
+            of = "ground" if isinstance(system, EquipmentOnFloor) else "base"
+            peaks = np.append(response.peak_base_acceleration, floors.peak_acceleration)
+            panels = [(0, peaks / STANDARD_GRAVITY, _ACCELERATION)]
             if has_drifts(response):
-                length, unit = unit_for(float(floors.peak_drift.max()))
-                panels.append((floors.peak_drift * length, f"largest drift [{unit}]"))
-            for k, (values, name) in enumerate(panels):
+                panels.append((1, floors.peak_drift * 1e3, _DRIFT))
+            for k, (first, values, name) in enumerate(panels):
                 panel = figure.add_subplot(grid[1, k] if len(panels) > 1 else grid[1, :])
-                panel.plot(values, number, "o-", color=VERMILION, markersize=4)
-                panel.set_xlim(left=0)
-                panel.set_yticks(number[:: 1 + len(number) // 12])
-                panel.set_xlabel(name)
-                panel.set_ylabel("floor")
+                number = np.arange(first, len(peaks))
+                panel.plot(values, number, "o-", color=VERMILION, markersize=4, clip_on=False)
+                _set_floors(panel, number, name, of)
+                if isinstance(system, EquipmentOnFloor) and first == 0:
+                    panel.annotate(
+                        "equipment",
+                        (values[system.floor], system.floor),
+                        xytext=(-7, 0),
+                        textcoords="offset points",
+                        ha="right",
+                        va="center",
+                        fontsize=8,
+                    )
         return figure
+
+
+def _draw_interface(axes: Axes, response: StructureResponse, title: str | None) -> None:
+    """Draw the displacement of the interface with its sticks, stops, peak, residual and remark."""
+    what = describe_system(response.system)
+    remark = response.remark
+    put_title(axes, response.motion, title, f"{what}\nremark: {remark}" if remark else what)
+    curve = response._curve()
+    t, x = curve["time"], curve["displacement"]
+    length, unit = unit_for(response.peak)
+    begin, end = window("plot_structure_response", response, None)
+    slope = isinstance(response.system, FlexibleSlope)
+    stops = [] if slope else near_stops(response.system.slider, response.peak)
+    stops = [length * y for y in stops]
+    shade_sticks(axes, sticks(response))
+    axes.axhline(0, color=GRAY, linewidth=0.6, zorder=0)
+    axes.plot(t, x * length, color=BLUE)
+    axes.set_xlim(begin, end)
+    mark_peak(axes, t, x * length, unit, response.peak * length, stops)
+    mark_end(axes, response, t, x, length, unit, end)
+    draw_stops(axes, stops, unit, t[np.abs(x).argmax()])
+    axes.set_xlabel("time [s]; shaded: stuck")
+    axes.set_ylabel(f"{'sliding' if slope else 'relative'} displacement\n[{unit}]")
+
+
+def _set_floors(axes: Axes, number: NDArray[np.int_], name: str, lowest: str) -> None:
+    """Set axes of values by floor, with room for the dots at their ends; floor 0 is `lowest`."""
+    axes.set_xlim(left=0)
+    axes.set_ylim(number[0] - 0.25, number[-1] + 0.25)
+    ticks = number[:: 1 + len(number) // 12]
+    axes.set_yticks(ticks, [f"{k}" if k else lowest for k in ticks])
+    axes.set_xlabel(name)
+    axes.set_ylabel("floor")
 
 
 @overload
@@ -104,8 +157,8 @@ def plot_floors(
     Returns
     -------
     matplotlib Figure or SubFigure
-        With axes for the largest absolute acceleration, from the base up, and the largest drift:
-        the median, and bands from the 16 % to the 84 % and from the 5 % to the 95 % quantile.
+        With axes for the largest absolute acceleration [g], from the base up, and the largest drift
+        [mm]: the median, and bands from the 16 % to the 84 % and from the 5 % to the 95 % quantile.
 
     Raises
     ------
@@ -125,15 +178,14 @@ def plot_floors(
         accelerations, drifts, base = _peaks_of(peaks)
         heading = f"{len(peaks)} responses"
         thin = len(peaks) <= 50
-    length, unit = unit_for(float(drifts.max()))
     with style():
         figure = figure or new_figure(7, 4)
         put_figure_title(figure, title or heading)
         for panel, values, first, name in zip(
             figure.subplots(1, 2),
-            (np.column_stack([base, accelerations]), drifts * length),
+            (np.column_stack([base, accelerations]) / STANDARD_GRAVITY, drifts * 1e3),
             (0, 1),
-            ("largest absolute acceleration [m/s²]", f"largest drift [{unit}]"),
+            (_ACCELERATION, _DRIFT),
         ):
             number = np.arange(first, accelerations.shape[1] + 1)
             bands = np.quantile(values, _BANDS, axis=0, method="inverted_cdf")
@@ -150,14 +202,14 @@ def plot_floors(
                     linewidth=0,
                     label=label,
                 )
-            panel.plot(bands[2], number, "o-", color=BLUE, markersize=4, label="median")
+            panel.plot(
+                bands[2], number, "o-", color=BLUE, markersize=4, label="median", clip_on=False
+            )
             if thin:
                 panel.plot(values.T, number, color=GRAY, linewidth=0.4, zorder=1)
-            panel.set_xlim(left=0)
-            panel.set_yticks(number[:: 1 + len(number) // 12])
-            panel.set_xlabel(name)
-            panel.set_ylabel("floor")
-        figure.axes[-1].legend(loc="best", fontsize=8)
+            _set_floors(panel, number, name, "base")
+        above = {"loc": "lower right", "bbox_to_anchor": (1, 1), "ncols": 3}
+        figure.axes[-1].legend(**above, fontsize=8)
         return figure
 
 

@@ -61,7 +61,7 @@ def style() -> Any:
 def put_title(axes: Axes, motion: GroundMotion, title: str | None = None, below: str = "") -> None:
     name = title or printable(motion.name) or "ground motion"
     # A caller's title may contain math; a dollar sign in a file name is literal.
-    below = wrap(below, room_over(axes), 8)
+    below = wrap_items(below, room_over(axes), 8)
     pad = 6 + 12 * len(below.splitlines()) if below else None
     name = name if title and "$" in title else wrapped(axes, name)
     axes.set_title(name, pad=pad, parse_math=bool(title))
@@ -90,6 +90,14 @@ def wrapped(axes: Axes, title: str) -> str:
     return wrap(title, room_over(axes), matplotlib.rcParams["axes.titlesize"], "bold")
 
 
+def wrap_items(text: str, room: float, size: float) -> str:
+    """Text in lines that end between its items, or between words where an item is too long."""
+    joined = ", ".join(item.replace(" ", "\N{NO-BREAK SPACE}") for item in text.split(", "))
+    lines = wrap(joined, room, size).replace("\N{NO-BREAK SPACE}", " ")
+    whole = all(line.endswith(",") for line in lines.splitlines()[:-1])
+    return lines if whole else wrap(text, room, size)
+
+
 def wrap(text: str, room: float, size: float, weight: str = "normal") -> str:
     """Text in lines of at most `room` points; words that are longer are divided."""
     font = FontProperties(family=matplotlib.rcParams["font.family"], size=size, weight=weight)
@@ -100,7 +108,7 @@ def wrap(text: str, room: float, size: float, weight: str = "normal") -> str:
     if "\n" in text:
         return "\n".join(wrap(line, room, size, weight) for line in text.splitlines())
     lines, line = [], ""
-    for word in text.split():
+    for word in filter(None, text.split(" ")):  # a no-break space does not end a word
         joined = f"{line} {word}" if line else word
         if line and width(joined) > room:
             lines.append(line)
@@ -143,8 +151,10 @@ def is_geometric(x: np.ndarray) -> bool:
 
 
 def plain_ticks(axes: Axes, x: np.ndarray) -> None:
-    """Label a log axis with 1, 2 and 5 times the powers of ten within the range of x."""
+    """Label a log axis with the ends of x, and 1, 2 and 5 times the powers of ten between."""
+    low, high = x.min(), x.max()
     steps = [m * 10.0**e for e in range(-6, 7) for m in (1, 2, 5)]
-    ticks = [m for m in steps if x.min() * (1 - 1e-9) <= m <= x.max() * (1 + 1e-9)]
-    axes.set_xticks(ticks, [f"{m:g}" for m in ticks])
+    # A tick so near an end that the labels would overlap gives way to it.
+    ticks = [low, *(m for m in steps if 1.2 * low <= m <= high / 1.2), high]
+    axes.set_xticks(ticks, [f"{m:.3g}" for m in ticks])
     axes.minorticks_off()

@@ -72,17 +72,25 @@ def plot_sweep(
     values = 100 * np.abs(getattr(table, quantity))
     axis = {"mu": "coefficient of friction [\N{MINUS SIGN}]", "period": "period [s]"}
     alone = len(curves) == 1
+    shown_values = quantiles[1:4][np.isfinite(quantiles[1:4]) & (quantiles[1:4] > 0.01)]
+    # down to 0.1 mm, which is no displacement
+    log = bool(shown_values.size and shown_values.max() > 10 * shown_values.min())
+
+    def line(y: np.ndarray) -> np.ndarray:
+        """What a line shows: it ends at 0, which a log axis cannot show."""
+        return np.where(y > 0, y, np.nan) if log else y
+
     with style():
         figure, axes = one_panel("plot_sweep", None, ax, 7, 4.5)
         for (label, x, places), color in zip(curves, COLORS):
             marker = "o" if len(places) == 1 or not name else None
             if len(table.records) == 1:  # the polarities of one record, without statistics
-                _draw_polarities(axes, table, x, values[places, 0], color, label, marker)
+                _draw_polarities(axes, table, x, line(values[places, 0]), color, label, marker)
                 continue
             lowest, low, middle, high, highest = quantiles[:, places]
             if not name:  # sliders in no order, which lines would suggest
                 if samples <= _THIN_LINES:
-                    thin = values[places].reshape(len(places), -1)
+                    thin = line(values[places]).reshape(len(places), -1)
                     axes.plot(x, thin, ".", color="#c4c4c4", markersize=3)
                 axes.errorbar(
                     *(x, middle, (middle - low, high - middle)),
@@ -94,7 +102,7 @@ def plot_sweep(
                 )
                 continue
             if alone and samples <= _THIN_LINES:
-                thin = values[places].reshape(len(places), -1)
+                thin = line(values[places]).reshape(len(places), -1)
                 axes.plot(x, thin, color="#c4c4c4", linewidth=0.5, alpha=min(1, 40 / samples + 0.2))
             elif alone:  # this many lines would hide the band and each other
                 outer = {"color": color, "alpha": 0.12, "linewidth": 0}
@@ -109,7 +117,9 @@ def plot_sweep(
                 label="16 to 84 %" if alone else None,
             )
             shown = f"median of {samples:,} histories"
-            axes.plot(x, middle, color=color, linewidth=2, label=label or shown, marker=marker)
+            axes.plot(
+                x, line(middle), color=color, linewidth=2, label=label or shown, marker=marker
+            )
         axes.set_xlabel(axis.get(name, name))
         axes.set_ylabel(
             f"{heading}{' displacement' if quantity != 'sliding_distance' else ''} [cm]"
@@ -120,9 +130,8 @@ def plot_sweep(
         if name and x.min() > 0 and x.max() > 5 * x.min():
             axes.set_xscale("log")
             plain_ticks(axes, x)
-        shown_values = quantiles[1:4][np.isfinite(quantiles[1:4]) & (quantiles[1:4] > 0.01)]
-        if shown_values.size and shown_values.max() > 10 * shown_values.min():
-            axes.set_yscale("log")  # down to 0.1 mm, which is no displacement
+        if log:
+            axes.set_yscale("log")
             top = np.nanmax(values) if len(table.records) == 1 or alone else None
             axes.set_ylim(shown_values.min() / 2, 2 * (top or shown_values.max()))
             axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
@@ -262,7 +271,7 @@ def plot_friction_sweep(
             f"got {displacement.shape}"
         )
     floor = 0.01  # [cm]; to an engineer, 0.1 mm is no displacement
-    lines = np.maximum(100 * displacement, 1e-9)  # blocks that do not slip are below the axis
+    lines = 100 * displacement
     lifted = sorted(
         (i for i, name in enumerate(names) if name in set(highlight)), key=lambda i: -lines[i, 0]
     )
@@ -274,11 +283,10 @@ def plot_friction_sweep(
             axes.plot(mu, lines[i], color=color, linewidth=1.5, label=printable(names[i]))
         median = np.median(lines, axis=0)
         axes.plot(mu, median, color=INK, linewidth=3, label=f"median of {len(names)} records")
-        axes.set(xscale="log", yscale="log", xlim=(mu[0], mu[-1]))
+        axes.set(xscale="log", xlim=(mu[0], mu[-1]))
+        axes.set_yscale("log", nonpositive="mask")  # a line ends where a block does not slip
         axes.set_ylim(floor, max(2 * lines.max(), 10 * floor))
-        ticks = [m for m in (0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 1) if mu[0] <= m <= mu[-1]]
-        axes.set_xticks(ticks, [f"{m:g}" for m in ticks])
-        axes.minorticks_off()
+        plain_ticks(axes, mu)
         axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
         axes.grid(color=PALE, linewidth=0.6)
         axes.set_axisbelow(True)

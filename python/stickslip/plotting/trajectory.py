@@ -9,12 +9,12 @@ import numpy as np
 from .._core import STANDARD_GRAVITY, PlanarResponse, Response, StructureResponse
 
 
-def sticks(response: Response | PlanarResponse) -> np.ndarray:
+def sticks(response: Response | PlanarResponse | StructureResponse) -> np.ndarray:
     """The intervals in which the slider stuck.
 
     Parameters
     ----------
-    response : Response or PlanarResponse
+    response : Response, PlanarResponse or StructureResponse
 
     Returns
     -------

@@ -9,12 +9,31 @@ from typing import Any
 import numpy as np
 
 from .. import _core
-from .._core import STANDARD_GRAVITY, Ensemble, Estimate
+from .._core import STANDARD_GRAVITY, Ensemble, EquipmentOnFloor, Estimate, FlexibleSlope
+
+_SURFACES = {2: "double pendulum", 4: "triple pendulum", 6: "quintuple pendulum"}
 
 
 def describe(slider: Any) -> str:
     """A short description of a slider, such as 'slip level 0.06 g, period 3 s'."""
     return ", ".join(in_words(json.loads(_core.identity(slider))))
+
+
+def describe_system(system: Any) -> str:
+    """The same of a structure, such as 'equipment on floor 2 of 3, slip level 0.1 g'."""
+    if isinstance(system, FlexibleSlope):
+        level = system.ky_g if isinstance(system.ky_g, float) else system.ky_g.mu[0]
+        return (
+            f"flexible slope, yield acceleration {digits(level)} g, height"
+            f" {digits(system.height)} m, shear velocity {digits(system.shear_velocity)} m/s,"
+            f" {system.method}"
+        )
+    floors = system.structure.floors
+    if isinstance(system, EquipmentOnFloor):
+        what = f"equipment on floor {system.floor} of {floors}"
+    else:
+        what = "isolated structure" + (f" of {floors} floor{'s' * (floors > 1)}" if floors else "")
+    return f"{what}, {describe(system.slider)}"
 
 
 def describe_ensemble(ensemble: Ensemble) -> str:
@@ -56,7 +75,9 @@ def in_words(slider: Mapping[str, Any]) -> list[str]:
         words.append(f"viscous damping {digits(slider['damping'])} 1/s")
     if slider.get("natural_frequency"):
         period = f"period {digits(2 * np.pi / slider['natural_frequency'])} s"
-        words.append(f"pendulum, {period}" if "pendulum" in slider else period)
+        if "pendulum" in slider:
+            words.append(f"pendulum, radius {digits(_radius(slider['natural_frequency']))} m")
+        words.append(period)
     if "slope_degrees" in slider:
         words.append(f"slope {digits(slider['slope_degrees'])}\N{DEGREE SIGN}")
     if "one_way" in slider:
@@ -71,6 +92,11 @@ def in_words(slider: Mapping[str, Any]) -> list[str]:
     return words
 
 
+def _radius(natural_frequency: float) -> float:
+    """The radius [m] of a pendulum."""
+    return float(STANDARD_GRAVITY / natural_frequency**2)
+
+
 def _law_in_words(law: Mapping[str, Any]) -> Iterator[str]:
     if isinstance(law.get("static"), list):
         yield from _both_ways("static level", *law["static"])
@@ -83,7 +109,8 @@ def _law_in_words(law: Mapping[str, Any]) -> Iterator[str]:
         yield f"mu {digits(law['mu_ref'])} at reference, {pressure}, heated"
     elif law["law"] == "MultiPendulum":
         count = len(law["radii"]) + bool(law.get("nested"))
-        yield f"pendulum of {count} surfaces, mu {', '.join(digits(mu) for mu in law['mu'])}"
+        name = _SURFACES.get(count, f"pendulum of {count} surfaces")
+        yield f"{name}, mu {', '.join(digits(mu) for mu in law['mu'])}"
     elif law["law"] == "Degrading":
         yield f"slip level {_in_g(law['levels'][0])}"
         if len(law["levels"]) > 1:
