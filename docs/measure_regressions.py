@@ -9,6 +9,7 @@ extra `records`).
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
@@ -460,6 +461,7 @@ def figure() -> Figure:
 
 
 def main() -> None:
+    warnings.simplefilter("ignore", regressions.RangeWarning)  # of the smallest and largest ky
     rewrite(PAGE, tables().values())
     draw(PICTURE, figure)
 

@@ -14,7 +14,8 @@
 #include <vector>
 
 #include "friction/callable_law.hpp"
-#include "friction/plausibility.hpp"
+#include "plausibility.hpp"
+#include "statistics/estimate.hpp"
 #include "stickslip/stickslip.hpp"
 
 namespace py = pybind11;
@@ -197,6 +198,17 @@ class HeldFunction {
 inline void check_for_interrupt() {
   const py::gil_scoped_acquire held;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+/// Calls `work`; an overflow names what may have caused it: the slider, and its velocity at the start.
+template <class Work>
+auto naming_cause(const py::object& slider, const std::string& velocity, Work&& work) {
+  try {
+    return work();
+  } catch (const std::overflow_error& error) {
+    throw std::overflow_error(std::string(error.what()) + "; the slider is " + py::repr(slider).cast<std::string>() +
+                              ", its velocity at the start " + velocity + " m/s");
+  }
 }
 
 /// A read-only array over `values`, which `owner` keeps alive.
@@ -394,7 +406,7 @@ inline double slip_level_of(std::optional<double> mu, std::optional<double> slip
                                     : "neither"));
   if (!mu) return *slip_level;
   detail::require(std::isfinite(*mu) && *mu >= 0, law + ": " + mu_name + " must be finite and at least 0", *mu);
-  check_coefficient(law, mu_name, *mu);
+  check_unit("coefficient of friction", law, mu_name, *mu);
   return *mu * standard_gravity;
 }
 

@@ -26,6 +26,16 @@ void make_safe(py::type type) {
 
 }  // namespace
 
+// In a subinterpreter pybind11 would wait without end for the lock of the main one, before any code of this module runs.
+extern "C" PYBIND11_EXPORT PyObject* PyInit_in_main_interpreter();
+extern "C" PYBIND11_EXPORT PyObject* PyInit__core() {
+  if (PyInterpreterState_Get() == PyInterpreterState_Main()) return PyInit_in_main_interpreter();
+  PyErr_SetString(PyExc_ImportError,
+                  "stickslip does not support subinterpreters; use the main interpreter of a process");
+  return nullptr;
+}
+#define PyInit__core PyInit_in_main_interpreter  // which the macro defines
+
 PYBIND11_MODULE(_core, m) {
   using namespace stickslip::python;
   m.attr("STANDARD_GRAVITY") = stickslip::standard_gravity;

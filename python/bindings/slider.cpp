@@ -139,9 +139,15 @@ AnySlider slider_from(const py::object& law, std::optional<double> natural_frequ
   // A quantity in degrees would count as a number of radians. A plain float does not need NumPy.
   const double degrees = PyFloat_CheckExact(slope.ptr()) ? PyFloat_AsDouble(slope.ptr())
                                                          : to_number(slope, "Slider: slope_degrees", "degree");
-  if (PyNumber_Check(slope.ptr()) != 0 && !py::hasattr(slope, "to")) check_slope(degrees);  // no quantity
-  return mounted(law,
-                 {wn, damping_from(damping, damping_ratio, wn), degrees, one_way, stops ? *stops : Stops(), pendulum});
+  AnySlider made = mounted(
+      law, {wn, damping_from(damping, damping_ratio, wn), degrees, one_way, stops ? *stops : Stops(), pendulum});
+  if (PyNumber_Check(slope.ptr()) != 0 && !py::hasattr(slope, "to"))  // no quantity
+    check_unit("slope", "Slider", "slope_degrees", degrees);
+  check_unit("angular frequency", "Slider", "natural_frequency", natural_frequency);
+  check_unit("period", "Slider", "period", period);
+  check_unit("damper", "Slider", "damping", damping);
+  check_unit("damping ratio of one mode", "Slider", "damping_ratio", damping_ratio);
+  return made;
 }
 
 void bind_slider(py::module_& m) {
@@ -201,6 +207,9 @@ Functions that take a slider also take a law: a slider on level ground without s
       .def_static(
           "in_cup",
           [](const AnySlider& law, double cup_radius, double wheel_radius, double damping) {
+            check_unit("radius", "Slider.in_cup", "cup_radius", cup_radius);
+            check_unit("length", "Slider.in_cup", "wheel_radius", wheel_radius);
+            check_unit("damper", "Slider.in_cup", "damping", damping);
             return std::visit(
                 [&](const auto& s) -> AnySlider {
                   if (s.mounting() != Mounting{})
@@ -381,7 +390,10 @@ float
         if (period)
           detail::require(std::isfinite(*period) && *period > 0, "FrictionPendulum: period must be positive and finite",
                           *period, "s");
-        if (rate) check_rate("FrictionPendulum", *rate);
+        check_unit("radius", "FrictionPendulum", "radius", radius);
+        check_unit("period", "FrictionPendulum", "period", period);
+        check_unit("rate", "FrictionPendulum", "rate", rate);
+        check_unit("damper", "FrictionPendulum", "damping", damping);
         const bool varies = mu_slow || mu_fast || rate;
         if (static_cast<int>(mu.has_value()) + varies + !law.is_none() != 1 ||
             (varies && !(mu_slow && mu_fast && rate)))

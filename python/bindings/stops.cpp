@@ -29,6 +29,8 @@ Raises
 ValueError
     A value out of range.)")
       .def(py::init([](double gap, double restitution, std::optional<double> backward) {
+             check_unit("length", "Stops", "gap", gap);
+             check_unit("length", "Stops", "backward", backward);
              return Stops(gap, backward.value_or(gap), restitution);
            }),
            py::kw_only(), py::arg("gap"), py::arg("restitution"), py::arg("backward") = py::none())

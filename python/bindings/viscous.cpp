@@ -8,7 +8,10 @@ void bind_viscous(py::module_& m) {
   m.def(
       "ViscousSlider",
       [](double damping, double natural_frequency) {
-        return AnySlider(Slider<Coulomb>(ViscousSlider(damping, natural_frequency)));
+        AnySlider made = Slider<Coulomb>(ViscousSlider(damping, natural_frequency));
+        check_unit("damper", "ViscousSlider", "damping", damping);
+        check_unit("angular frequency", "ViscousSlider", "natural_frequency", natural_frequency);
+        return made;
       },
       py::arg("damping"), py::arg("natural_frequency") = 0.0,
       R"(A slider with a damper and no friction: the linear system that approximates a slider with friction.

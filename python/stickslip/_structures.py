@@ -207,6 +207,8 @@ def response_html(response: StructureResponse) -> str:
         rows.append(("highest temperature", f"{response.temperature.max():.4g} °C, at samples"))
     if len(response.impacts):
         rows.append(("impacts on stops", f"{len(response.impacts):,}"))
+    if response.remark:
+        rows.append(("remark", response.remark))
     return html_table("Response of a structure", [], rows)
 
 

@@ -31,7 +31,7 @@ from ._core import (
 )
 from ._files import replacing
 from ._optional import optional
-from ._text import printable
+from ._text import no_formula, printable
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -39,6 +39,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Columns",
     "Repeated",
+    "cell",
     "ensemble_html",
     "frame_of",
     "heading",
@@ -102,7 +103,8 @@ def frame_of(columns: Columns, units: Mapping[str, str], who: str, index: str | 
 def write_csv(columns: Columns, units: Mapping[str, str], file: str | os.PathLike[str]) -> Path:
     """Write columns to a CSV file, which replaces another one whole or not at all.
 
-    Numbers read back to the same double; truth values are 1 and 0.
+    Numbers read back to the same double; truth values are 1 and 0. Texts that a spreadsheet would
+    take for formulas have an apostrophe before them.
 
     Parameters
     ----------
@@ -115,10 +117,10 @@ def write_csv(columns: Columns, units: Mapping[str, str], file: str | os.PathLik
         The file cannot be written.
     """
     with replacing(file) as stream:
-        heads = [_cell(heading(name, units.get(name, ""))) for name in columns]
+        heads = [cell(heading(name, units.get(name, ""))) for name in columns]
         stream.write((",".join(heads) + "\n").encode())
         texts = [
-            [_cell(one) for one in column.values.tolist()] if isinstance(column, Repeated) else None
+            [cell(one) for one in column.values.tolist()] if isinstance(column, Repeated) else None
             for column in columns.values()
         ]
         for begin in range(0, length_of(columns), 4096):
@@ -132,7 +134,7 @@ def write_csv(columns: Columns, units: Mapping[str, str], file: str | os.PathLik
                     continue
                 part = column[begin : begin + 4096]
                 plain = part.dtype.kind in "iuf"  # no cell that would need quotation marks
-                cells.append(map(repr if plain else _cell, part.tolist()))
+                cells.append(map(repr if plain else cell, part.tolist()))
             rows = map(",".join, zip(*cells))
             stream.write(("\n".join(rows) + "\n").encode())
     return Path(os.fsdecode(file))
@@ -145,12 +147,13 @@ def length_of(columns: Columns) -> int:
     )
 
 
-def _cell(value: Any) -> str:
+def cell(value: Any) -> str:
     """A value as a cell of a CSV file."""
     if isinstance(value, bool):
         return str(int(value))
     if not isinstance(value, str):
         return repr(value)
+    value = no_formula(value)
     if not any(mark in value for mark in ',"\r\n'):
         return value
     doubled = value.replace('"', '""')
@@ -372,6 +375,29 @@ def impact_probabilities(ensemble: Ensemble) -> dict[str, Interval]:
     return found
 
 
+def ensemble_remark(ensemble: Ensemble) -> str:
+    """A sentence about limits of an ensemble; see `Ensemble.remark`."""
+    excitation: Any = ensemble.configuration.get("excitation")
+    while isinstance(excitation, dict) and "horizontal" in excitation:
+        excitation = excitation["horizontal"]
+    if not isinstance(excitation, dict) or excitation.get("zero_frequency") is not False:
+        return ""
+    spectrum = excitation["spectrum"]
+    reaches_zero = {
+        "white": True,
+        "kanai_tajimi": True,
+        "band_pass": spectrum.get("low") == 0,
+        "table": spectrum.get("omega", [1])[0] == 0 and spectrum.get("density", [0])[0] > 0,
+    }
+    returns = excitation["envelope"] is None and excitation["period"] <= excitation["samples"]
+    if not (returns and reaches_zero.get(spectrum["kind"], False)):
+        return ""
+    return (
+        "the motions have no line at zero frequency (zero_frequency is False): ground velocities"
+        " return to where they began, and displacements drift less than under the spectrum"
+    )
+
+
 def ensemble_html(ensemble: Ensemble) -> str:
     """A table of the main statistics of an ensemble."""
     members = ensemble.members
@@ -388,8 +414,7 @@ def ensemble_html(ensemble: Ensemble) -> str:
             s = ensemble.stationary
             rows.append(("variance of x'", _of_estimate(s.velocity_variance, "m²/s²")))
             rows.append(("growth of the variance of x", _of_estimate(s.growth_rate, "m²/s")))
-            if s.remark:
-                rows.append(("remark", s.remark))
+            rows += [("remark", one) for one in (s.remark, ensemble.remark) if one]
     return html_table("Ensemble", [], rows)
 
 

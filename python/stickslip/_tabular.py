@@ -60,6 +60,9 @@ class Tabular(ABC):
     def to_csv(self, file: str | os.PathLike[str]) -> Path:
         """Write a CSV file with the unit in each head; numbers read back to the same double.
 
+        An apostrophe stands before texts that a spreadsheet would take for formulas, those that
+        begin with =, +, - or @.
+
         Parameters
         ----------
         file : path-like

@@ -23,7 +23,7 @@ def units_remark(sliders: Iterable[Any], motions: Iterable[GroundMotion]) -> str
     )
 
 
-def warn_of_units(who: str, sliders: Any, motions: Any, seed: int = 0, stacklevel: int = 3) -> None:
+def warn_of_units(who: str, sliders: Any, motions: Any, seed: int = 0, stacklevel: int = 3) -> str:
     """Warn about a run in which nothing slips. Random ground motions are not records: no warning.
 
     Parameters
@@ -36,15 +36,21 @@ def warn_of_units(who: str, sliders: Any, motions: Any, seed: int = 0, stackleve
         Of a random source of sliders.
     stacklevel : int, optional
         Of the warning: 3 is the caller of the function.
+
+    Returns
+    -------
+    str
+        The remark; '' without a warning.
     """
     those = _listed(motions)
     if not all(isinstance(motion, GroundMotion) for motion in those):
-        return
+        return ""
     if hasattr(sliders, "sample"):
         sliders = [sliders.sample(seed=seed, member=i) for i in range(_MOST)]
     remark = units_remark(_listed(sliders), those)
     if remark:
         warnings.warn(f"{who}: {remark}", PlausibilityWarning, stacklevel=stacklevel)
+    return remark
 
 
 def _listed(given: Any) -> list[Any]:

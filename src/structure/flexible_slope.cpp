@@ -157,7 +157,10 @@ SlidingStructure sliding_structure(const FlexibleSlope& slope, const SlopeProper
 
 StructureResponse integrate(const FlexibleSlope& slope, const GroundMotion& motion,
                             const StructureIntegrateOptions& options) {
-  return integrate(sliding_structure(slope, properties(slope, motion)), motion, options);
+  const SlopeProperties found = properties(slope, motion);
+  StructureResponse response = integrate(sliding_structure(slope, found), motion, options);
+  response.soil_strain = found.strain;
+  return response;
 }
 
 }  // namespace stickslip

@@ -60,6 +60,35 @@ class Driven {
   Eigen::VectorXd state_{};
 };
 
+// The absolute accelerations of the floors at the samples, a column for each floor.
+Eigen::MatrixXd accelerations_of(const Structure& structure, const GroundMotion& motion) {
+  Driven driven(structure, motion);
+  const detail::ModalInterface& of = driven.modal();
+  // The part of the ground acceleration that the modes do not bring to a floor; with all modes, none.
+  Eigen::VectorXd direct = detail::view(structure.influence()) - of.shapes * of.load;
+  if (structure.has_matrices()) direct.setZero();
+  const auto samples = static_cast<Index>(motion.samples());
+  Eigen::MatrixXd accelerations(samples, structure.floors());
+  Eigen::VectorXd force(of.modes());
+  const auto keep = [&](Index sample, double n) {
+    force = of.stiffness.cwiseProduct(driven.displacement());
+    if (of.classical)
+      force += of.damping.diagonal().cwiseProduct(driven.velocity());
+    else
+      force += of.damping * driven.velocity();
+    accelerations.row(sample) = (direct * n - of.shapes * force).transpose();
+  };
+  for (Index i = 0; i + 1 < samples; ++i) {
+    const Segment segment = motion.segment(static_cast<std::size_t>(i));
+    keep(i, segment.start);
+    driven.advance(segment);
+    if (i + 2 == samples) keep(i + 1, segment.end);
+  }
+  if (!accelerations.allFinite() || accelerations.cwiseAbs().maxCoeff() > GroundMotion::max_acceleration)
+    throw std::overflow_error("floor_motions: the accelerations of the floors exceed 1e100 m/s^2");
+  return accelerations;
+}
+
 // The motion with each segment in equal parts.
 std::vector<double> divided(std::span<const double> values, int parts, Interpolation interpolation) {
   std::vector<double> result;
@@ -79,61 +108,60 @@ GroundMotion divided(const GroundMotion& motion, int parts) {
   };
   if (std::isfinite(motion.dt()))
     return GroundMotion(of(motion.acceleration()), motion.dt() / parts, motion.interpolation(), motion.name())
-        .with_components({}, of(motion.vertical()));
+        .with_components(of(motion.transverse()), of(motion.vertical()));
   std::vector<double> times;
   for (std::size_t i = 0; i < motion.samples(); ++i) times.push_back(motion.time(i));
   return GroundMotion(of(motion.acceleration()), divided(times, parts, Interpolation::linear), motion.interpolation(),
                       motion.name())
-      .with_components({}, of(motion.vertical()));
+      .with_components(of(motion.transverse()), of(motion.vertical()));
+}
+
+// The transverse component as a motion along its axis.
+GroundMotion transverse_of(const GroundMotion& motion) {
+  const std::vector<double> values(motion.transverse().begin(), motion.transverse().end());
+  if (std::isfinite(motion.dt())) return GroundMotion(values, motion.dt(), motion.interpolation());
+  std::vector<double> times;
+  for (std::size_t i = 0; i < motion.samples(); ++i) times.push_back(motion.time(i));
+  return GroundMotion(values, times, motion.interpolation());
 }
 
 }  // namespace
 
-std::vector<GroundMotion> floor_motions(const Structure& structure, const GroundMotion& motion, int parts) {
-  if (structure.floors() == 0)
-    throw std::invalid_argument("floor_motions: needs a structure with floors; give from_modes the shapes");
+std::vector<GroundMotion> floor_motions(const Structure& structure, const GroundMotion& motion, int parts,
+                                        const std::optional<Structure>& transverse) {
+  for (const Structure& one : {structure, transverse.value_or(structure)})
+    if (one.floors() == 0)
+      throw std::invalid_argument("floor_motions: needs a structure with floors; give from_modes the shapes");
   detail::require(parts >= 1, "floor_motions: parts must be at least 1", parts);
+  if (transverse && !motion.has_transverse())
+    throw std::invalid_argument("floor_motions: a transverse structure needs a motion with a transverse component");
+  if (transverse && transverse->floors() != structure.floors())
+    throw std::invalid_argument("floor_motions: the transverse structure must have " +
+                                std::to_string(structure.floors()) + " floors, got " +
+                                std::to_string(transverse->floors()));
   const GroundMotion fine = divided(motion, parts);
-  Driven driven(structure, fine);
-  const detail::ModalInterface& of = driven.modal();
-  const Index floors = structure.floors();
-  // The part of the ground acceleration that the modes do not bring to a floor; with all modes, none.
-  Eigen::VectorXd direct = detail::view(structure.influence()) - of.shapes * of.load;
-  if (structure.has_matrices()) direct.setZero();
-  const auto samples = static_cast<Index>(fine.samples());
-  Eigen::MatrixXd accelerations(samples, floors);
-  Eigen::VectorXd force(of.modes());
-  const auto keep = [&](Index sample, double n) {
-    force = of.stiffness.cwiseProduct(driven.displacement());
-    if (of.classical)
-      force += of.damping.diagonal().cwiseProduct(driven.velocity());
-    else
-      force += of.damping * driven.velocity();
-    accelerations.row(sample) = (direct * n - of.shapes * force).transpose();
-  };
-  for (Index i = 0; i + 1 < samples; ++i) {
-    const Segment segment = fine.segment(static_cast<std::size_t>(i));
-    keep(i, segment.start);
-    driven.advance(segment);
-    if (i + 2 == samples) keep(i + 1, segment.end);
-  }
-  if (!accelerations.allFinite() || accelerations.cwiseAbs().maxCoeff() > GroundMotion::max_acceleration)
-    throw std::overflow_error("floor_motions: the accelerations of the floors exceed 1e100 m/s^2");
+  const Eigen::MatrixXd along = accelerations_of(structure, fine);
+  Eigen::MatrixXd across;
+  if (fine.has_transverse()) across = accelerations_of(transverse.value_or(structure), transverse_of(fine));
 
   std::vector<GroundMotion> result;
   const std::vector<double> up(fine.vertical().begin(), fine.vertical().end());
   std::vector<double> times;
   for (std::size_t i = 0; !std::isfinite(fine.dt()) && i < fine.samples(); ++i) times.push_back(fine.time(i));
-  for (Index floor = 0; floor < floors; ++floor) {
-    const auto column = accelerations.col(floor);
-    std::vector<double> values(column.begin(), column.end());
+  const auto column_of = [](const Eigen::MatrixXd& of, Index floor) {
+    if (of.size() == 0) return std::vector<double>();
+    const auto column = of.col(floor);
+    return std::vector<double>(column.begin(), column.end());
+  };
+  for (Index floor = 0; floor < structure.floors(); ++floor) {
+    std::vector<double> values = column_of(along, floor);
     std::string name = motion.name();
     if (!name.empty()) name += ' ';
     name += "floor " + std::to_string(floor + 1);
     GroundMotion one = times.empty()
                            ? GroundMotion(std::move(values), fine.dt(), Interpolation::linear, std::move(name))
                            : GroundMotion(std::move(values), times, Interpolation::linear, std::move(name));
-    result.push_back(one.with_components({}, up).with_orientation(motion.orientation()));
+    result.push_back(one.with_components(column_of(across, floor), up).with_orientation(motion.orientation()));
   }
   return result;
 }

@@ -1,6 +1,7 @@
 // A linear structure with one sliding interface, in modal coordinates.
 #pragma once
 
+#include <complex>
 #include <vector>
 
 #include "stickslip/spring.hpp"
@@ -57,7 +58,7 @@ struct ModalInterface {
 /// Matrix of the motion z' = A z without loads, z = (x, v, y, y') while it slides, (y, y') while it is stuck.
 Eigen::MatrixXd flow_matrix(const ModalInterface& of, bool sliding);
 
-/// Sets `fastest`.
+/// Sets `fastest`; of more than 80 modes to some 1e-4.
 void set_fastest(ModalInterface& of);
 
 /// The largest part of the demand, beside the pull of the spring, that can still occur while the interface remains
@@ -65,13 +66,21 @@ void set_fastest(ModalInterface& of);
 class StuckBound {
  public:
   explicit StuckBound(const ModalInterface& of);
-  double operator()(const StructureState& state) const;
+  double operator()(const StructureState& state) const { return after(state, 0); }
+  /// The same when it has been stuck for some time [s].
+  double after(const StructureState& state, double time) const;
 
  private:
+  // Of a mode that does not feel the others: the roots of its equation, their distance, and the demand of y and y'.
+  struct Pair {
+    std::complex<double> first, second, apart;
+    double of_place, of_rate;
+  };
+  std::vector<Pair> pairs_{};
   Eigen::Index modes_;
-  std::vector<Eigen::Index> kept_;  // components of (y, y') that act
-  Eigen::MatrixXcd left_;           // amplitudes of the eigenvectors from (y, y')
-  Eigen::VectorXd weights_;         // |demand| of each
+  std::vector<Eigen::Index> kept_;   // components of (y, y') that act
+  Eigen::MatrixXcd left_;            // amplitudes of the eigenvectors from (y, y')
+  Eigen::VectorXd weights_, rates_;  // |demand| of each, and its growth [1/s]
 };
 
 }  // namespace stickslip::detail

@@ -114,6 +114,34 @@ bool finite(const StructureState& state);
 [[noreturn]] void refuse_overflow(double peak);
 [[noreturn]] void refuse_restless(double step, const StructureState& state, double demand);
 
+/// How often it is asked whether that can be.
+inline constexpr std::size_t calm_steps_per_look = 1000;
+
+/// Throws if the interface cannot settle within the steps that are left, because friction is next to nothing beside what
+/// is left of the motion. Only friction changes the momentum of an interface that slides without spring, damper and
+/// stops; and the modes ring on unless their own dampers, or friction, stop them.
+template <FrictionLaw Law>
+void refuse_endless(const ModalInterface& of, const Law& law, const StuckBound& bound, double step,
+                    const StructureState& state, std::size_t steps) {
+  constexpr double margin = 1000;  // for friction that is higher later
+  if (of.spring.stiffness > 0 || of.damper > 0 || of.stops) return;
+  const double speed = std::abs(state.velocity), time = static_cast<double>(most_calm_steps - steps) * step;
+  double level = 0;
+  for (const Direction direction : {Direction::forward, Direction::backward}) {
+    if (of.one_way && direction == Direction::backward) continue;
+    const auto now = law_at(law, interface_of(state), 1);
+    for (const double one :
+         {hold(now, state.displacement, direction), resist(now, state.displacement, speed, direction)})
+      if (std::isfinite(one)) level = std::max(level, one);
+  }
+  const double impulse = margin * level * time, amplitude = bound.after(state, time);
+  const double momentum = state.velocity + of.coupling.dot(view(state.modal_velocity));
+  constexpr bool constant = form_of<Law> == Form::constant;
+  const bool slides_on = state.mode != Mode::stuck && std::abs(momentum) > impulse;
+  const bool rings_on = of.driven ? amplitude > (constant ? 1 : margin) * level : amplitude > of.fastest * impulse;
+  if (slides_on || rings_on) refuse_restless(step, state, amplitude);
+}
+
 /// Continue without ground motion until it is certain that the interface will not slide again.
 /// @param step  duration of each segment [s]
 /// @param go    moves through a segment
@@ -127,6 +155,7 @@ void settle_structure(const ModalInterface& of, const Law& law, double step, Str
   for (std::size_t steps = 0;
        state.mode != Mode::stuck || !holds_forever(pull(), amplitude(), stuck_levels(of, law, state)); ++steps) {
     if (steps == most_calm_steps) refuse_restless(step, state, amplitude() + std::abs(pull()));
+    if (steps % calm_steps_per_look == 0) refuse_endless(of, law, bound, step, state, steps);
     go(calm);
   }
 }

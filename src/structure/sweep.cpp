@@ -168,9 +168,9 @@ class SweptInterface {
   void come_to_rest() {
     const double step = motion_.last_step();
     const LoadSegment calm{step, 0, 0, standard_gravity, standard_gravity};
-    std::optional<StuckBound> bound;
+    std::optional<StuckBound> bound, left;
     if (stuck_.empty()) bound.emplace(of_);
-    for (std::size_t steps = 0;; ++steps) {
+    for (std::size_t steps = 0, look = 0;; ++steps) {
       double amplitude = never;
       if (state_.mode == Mode::stuck) {
         hold_from_here(1);
@@ -178,6 +178,11 @@ class SweptInterface {
         if (holds_forever(pull_, amplitude, levels_)) return;
       }
       if (steps == most_calm_steps) refuse_restless(step, state_, amplitude + std::abs(pull_));
+      if (steps >= look) {
+        look = steps + calm_steps_per_look;
+        if (!left) left.emplace(of_);
+        refuse_endless(of_, law_, *left, step, state_, steps);
+      }
       move_structure(of_, law_, calm, state_, expansion_, tally_);
     }
   }

@@ -511,10 +511,10 @@ TEST_CASE("a time off by one unit of its last place is even, by two it is not", 
 }
 
 TEST_CASE("times that do not increase are refused", "[records]") {
-  says(refusal(table({0, 2, 1, 3, 4}, "%.1f")), {"times[2]", "got 1 s"});
-  says(refusal(table({0, 1, 1, 3}, "%.1f")), {"times[2]"});
-  says(refusal(table({3, 2, 1, 0}, "%.1f")), {"dt must be positive", "-1 s"});
-  says(refusal(table({1, 1, 1, 1}, "%.1f")), {"dt must be positive", "0 s"});
+  says(refusal(table({0, 2, 1, 3, 4}, "%.1f")), {"line 4", "must increase", "'1.0' after 2"});
+  says(refusal(table({0, 1, 1, 3}, "%.1f")), {"line 4", "'1.0' after 1"});
+  says(refusal(table({3, 2, 1, 0}, "%.1f")), {"line 3", "'2.0' after 3"});
+  says(refusal(table({1, 1, 1, 1}, "%.1f")), {"line 3", "'1.0' after 1"});
 }
 
 TEST_CASE("a file that is not a record is rejected, with the list of formats", "[records]") {

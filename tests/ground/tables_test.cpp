@@ -96,7 +96,7 @@ TEST_CASE("a first column that counts rows is no time", "[records]") {
 
 TEST_CASE("times are in the unit of their label", "[records]") {
   const auto milliseconds = [](int i) { return std::to_string(10 * i); };
-  for (const char* label : {"time_ms", "t/ms", "Time in ms", "Time (ms)", "t [msec]", "milliseconds", "ms"}) {
+  for (const char* label : {"time_ms", "t/ms", "Time in ms", "Time (ms)", "t [msec]", "milliseconds", "ms", "TimeMs"}) {
     CAPTURE(label);
     is_the_record(read(std::string(label) + ",Acc (m/s2)\n" + rows(",", milliseconds)));
   }
@@ -375,4 +375,72 @@ TEST_CASE("long headings are read in time", "[records]") {
     CHECK(refusal(line + "\n0,1\n.1,2\n").size() < 400);
     CHECK(refusal("Time (s),Acc (g)\n0,1\n.1,2\n# " + line + "\n") == "accepted");
   }
+}
+
+TEST_CASE("labels stand in several lines", "[records]") {
+  const auto both = [](int i) { return seconds(i) + print(",%.7f", 0.5 * sample(i)); };
+  const std::string above = ",acc,acc\n,NS,EW\n";
+  for (const std::string& heading : {above + "time,m/s2,m/s2\n", above + "s,m/s2,m/s2\n",
+                                     std::string(",KOBE,KOBE\n,NS (m/s2),EW (m/s2)\nTime (s),,\n")}) {
+    CAPTURE(heading);
+    const std::vector<RecordComponent> all = parse_components(heading + rows(",", both), "a.csv", {});
+    REQUIRE(all.size() == 2);
+    CHECK(all[0].motion.orientation() == "NS");
+    CHECK(all[1].motion.orientation() == "EW");
+    is_the_record(all[1].motion);
+    is_the_record(read(heading + rows(",", both), {.component = "EW"}));
+  }
+  is_the_record(read("Time,Acc\ns,m/s^2\n,KOBE\n" + rows(",", seconds)));  // of Origin
+}
+
+TEST_CASE("columns of text, or with nothing in them, are passed over", "[records]") {
+  for (const char* text : {"KBU", "", "2011-A"}) {
+    CAPTURE(text);
+    is_the_record(
+        read("station,time (s),acc (m/s2)\n" + rows(",", [&](int i) { return std::string(text) + "," + seconds(i); })));
+  }
+  CHECK_THAT(refusal("acc (g),time (s)\n****,0\n0.1,0.01\n0.2,0.02\n"),
+             ContainsSubstring("line 2: expected finite numbers, got '****"));
+  const std::string dates = rows(",", [](int i) { return "2024-01-17T05:46:" + seconds(i); });
+  CHECK_THAT(refusal("time,acc (g)\n" + dates), ContainsSubstring("line 2: times must be seconds, got the date"));
+}
+
+TEST_CASE("a spectrum is no record, however its axes are named", "[records]") {
+  for (const char* label : {"S_a (g)", "RotD50 (g)", "SAv [g]", "GMRotI50 (g)", "SA_H (g)"}) {
+    CAPTURE(label);
+    CHECK_THAT(refusal("T (s)," + std::string(label) + "\n" + rows(",", seconds)), ContainsSubstring("spectral value"));
+  }
+  const std::string values =
+      rows(",", [](int i) { return print("%.2f,", 0.01 * i) + print("%.7f", std::abs(sample(i))); }, {});
+  CHECK_THAT(refusal("T,A\n" + values, {.units = "g"}), ContainsSubstring("T may be a period"));
+  CHECK(read("t,A\n" + values, {.units = "m/s^2"}).dt() == 0.01);
+}
+
+TEST_CASE("numbers of a fixed width may run together", "[records]") {
+  const auto packed = [](const char* format, double factor) {
+    std::string text;
+    for (int i = 0; i < count; ++i) text += print(format, factor * sample(i)) + (i % 8 == 7 ? "\n" : "");
+    return text;
+  };
+  is_the_record(read(packed("%9.4f", -100), {.units = "cm/s^2", .dt = 0.01}));
+  is_the_record(read(packed("%15.7E", -1), {.units = "m/s^2", .dt = 0.01}));
+  is_the_record(read(packed("%14.7E", 1), {.units = "m/s^2", .dt = 0.01}));
+  CHECK_THAT(refusal(packed("%8.4f", 100), {.units = "cm/s^2", .dt = 0.01}), ContainsSubstring("expected"));
+}
+
+TEST_CASE("a number above the others is a time step, or asked for", "[records]") {
+  const auto nothing = [](int) { return std::string(); };
+  std::string packed;
+  for (int i = 0; i < count; ++i) packed += print(" %.7f", sample(i)) + (i % 8 == 7 ? "\n" : "");
+  is_the_record(read("0.01\n" + packed, {.units = "m/s^2"}));
+  const std::string column = rows("", nothing);
+  CHECK_THAT(refusal("0.01\n" + column, {.units = "m/s^2", .dt = 0.01}),
+             ContainsSubstring("line 1: '0.01' may be a time step or a sample: write 'dt = 0.01'"));
+  is_the_record(read("dt = 0.01\n" + column, {.units = "m/s^2"}));
+  CHECK(read("0.0100000\n" + column, {.units = "m/s^2", .dt = 0.01}).samples() == count + 1);
+}
+
+TEST_CASE("equal columns without labels are refused", "[records]") {
+  CHECK_THAT(refusal(rows(",", [](int i) { return print("%.7f", sample(i)); }), {.units = "g", .dt = 0.01}),
+             ContainsSubstring("columns 1 and 2 are equal"));
 }

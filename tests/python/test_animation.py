@@ -91,3 +91,18 @@ def test_messages(options, message):
     r = ss.integrate(SLIDERS["block"], QUAKE)
     with pytest.raises(ValueError, match=message):
         r.animate(**options)
+
+
+def test_save_writes_whole_files_and_pages(tmp_path, monkeypatch):
+    r = ss.integrate(ss.Coulomb(mu=0.1), ss.GroundMotion([0, 3, -3, 0, 2, 0], dt=0.2))
+    film = r.animate(fps=5)
+    film.save(tmp_path / "a.html")
+    assert "<img" in (tmp_path / "a.html").read_text()
+
+    def full(*args, **options):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(type(film), "_film", full)
+    with pytest.raises(OSError, match="No space"):
+        film.save(tmp_path / "b.gif")
+    assert [file.name for file in tmp_path.iterdir()] == ["a.html"]

@@ -421,7 +421,7 @@ def test_what_is_implausible_is_said_in_the_words_of_the_command(capsys, tmp_pat
     assert code == 0
     first, again, last = err.splitlines()
     assert first == again  # of each file
-    assert first.startswith(f"stickslip: warning: {small}: the largest acceleration, ")
+    assert first.startswith(f"stickslip: warning: {small}: the largest acceleration = ")
     assert first.endswith("; check the units, with --units if the file states none")
     assert last.startswith(f"stickslip: warning: {off}: the mean acceleration, ")
     for word in ("read_record", "detrended", "Warning", ".py"):

@@ -8,8 +8,11 @@ import numpy as np
 import pytest
 import stickslip as ss
 from stickslip.cli import main
+from stickslip.runs import progress
 
 pytest.importorskip("scipy")
+
+pytestmark = pytest.mark.filterwarnings("ignore:Fragility.*extrapolated")
 
 USUAL = ["fragility", "sample:all", "--mu", "0.2", "--thresholds", "0.02", "0.1"]
 PGA = ["--pga", "0.2", "0.4", "0.8", "1.2"]
@@ -22,11 +25,15 @@ def fitted(**more):
     return ss.Fragility.fit(table, im="pga_g", thresholds=[0.02, 0.1], **more)
 
 
+@pytest.mark.filterwarnings("default:.*share a dispersion")
 def test_the_rows_are_those_of_the_library(capsys, tmp_path):
     more = ["--mu-beta", "0.3", "--members", "20", "--seed", "3", *PGA]
     assert main([*USUAL, *more, "--json", "--csv", str(tmp_path / "f.csv")]) == 0
-    document = json.loads(capsys.readouterr().out)
-    f = fitted()
+    captured = capsys.readouterr()
+    assert "share a dispersion" in captured.err
+    document = json.loads(captured.out)
+    with pytest.warns(RuntimeWarning, match="share a dispersion"):
+        f = fitted()
     bands = f.bands(0.9)
     assert (document["records"], document["method"]) == (18, "lognormal")
     for i, row in enumerate(document["results"]):
@@ -40,6 +47,22 @@ def test_the_rows_are_those_of_the_library(capsys, tmp_path):
     lines = capsys.readouterr().out.splitlines()
     assert lines[0].split()[:2] == ["exceeds", "[m]"]
     assert f"{fitted(separate=True).median[1]:.3g}" in lines[2]
+
+
+def test_what_lies_beyond_the_levels_has_an_asterisk(capsys):
+    levels = ["--thresholds", "0.02", "0.1", "--pga", "0.1", "0.2", "0.4", "0.8"]
+    options = ["fragility", "sample:all", "--mu", "0.3", *levels]
+    with warnings.catch_warnings():
+        warnings.simplefilter("always")
+        assert main([*options, "--json"]) == 0
+        captured = capsys.readouterr()
+        assert main(options) == 0
+    (row,) = (r for r in json.loads(captured.out)["results"] if r["threshold_m"] == 0.1)
+    assert row["extrapolated"] == ["median_g"]
+    assert captured.err.count("extrapolated") == 1
+    *_, line, note = capsys.readouterr().out.splitlines()
+    assert f"{row['median_g']:.3g}*" in line
+    assert note == "*: extrapolated, outside 0.1 to 0.8 g"
 
 
 def test_without_levels_the_records_are_a_cloud(capsys, tmp_path):
@@ -105,6 +128,17 @@ def test_both_components_of_a_station_are_one_record(capsys, tmp_path):
 def test_options_without_a_meaning_are_refused(capsys, more, message):
     assert main(["fragility", "sample:Kobe", "--thresholds", "0.1", *more]) == 2
     assert message in capsys.readouterr().err
+
+
+@pytest.mark.filterwarnings("ignore:Fragility.bands")
+def test_a_terminal_sees_the_progress(capsys, monkeypatch):
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
+    monkeypatch.setattr("stickslip.runs.progress._bar", progress._Bar)
+    assert main([*USUAL, *PGA, "--separate"]) == 0
+    captured = capsys.readouterr()
+    assert "144 of 144 combinations" in captured.err
+    assert "1,000 of 1,000 resamples" in captured.err
+    assert "#" not in captured.out
 
 
 def test_one_record_leaves_the_interval_unbounded(capsys):

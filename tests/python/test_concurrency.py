@@ -111,3 +111,17 @@ def test_ctrl_c_ends_an_integration(work):
         finally:
             process.kill()
     assert output == "interrupted\n"
+
+
+def test_a_subinterpreter_is_refused_not_hung():
+    code = """
+try:
+    import _interpreters as interpreters
+except ImportError:
+    import _xxsubinterpreters as interpreters
+one = interpreters.create()
+text = "try:\\n import stickslip._core\\nexcept ImportError as error:\\n print(error)"
+interpreters.run_string(one, text)
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert "does not support subinterpreters" in done.stdout + done.stderr

@@ -306,6 +306,7 @@ def test_the_margin_is_that_of_the_closest_decision():
     assert ss.integrate(block, harmonic).margin == pytest.approx(0.25, rel=1e-13)
 
 
+@pytest.mark.filterwarnings("ignore:Stops. backward = 9:stickslip.PlausibilityWarning")
 def test_the_impact_margin_is_the_way_by_which_a_stop_was_missed_or_met():
     still = ss.GroundMotion([0.0, 0.0], dt=9)
     for gap in (0.625, 0.51, 0.49, 0.4):  # thrown at 1 m/s against 1 m/s^2: 0.5 m

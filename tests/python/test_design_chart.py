@@ -55,6 +55,17 @@ def test_pairs_count_over_all_directions():
     assert along.peak == pytest.approx(axis.peak, rel=1e-9)
 
 
+def test_a_chart_tells_its_progress(capsys):
+    ss.design_chart(SUITE, [0.05, 0.2], pga_g=[0.2, 0.5], progress=True)
+    assert "48 of 48 combinations" in capsys.readouterr().err
+
+    def interrupt(done, total):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        ss.design_chart(SUITE, [0.05, 0.2], pga_g=[0.2, 0.5], progress=interrupt)
+
+
 def test_what_no_chart_can_show_is_refused():
     for bad, why in (
         ({}, "give pga_g or pgv, got none"),

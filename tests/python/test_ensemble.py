@@ -975,3 +975,26 @@ def test_a_run_that_was_broken_off_ends_with_the_same_bits(tmp_path):
         assert same_bits(again, whole)
         assert same_bits(ss.Ensemble.load(file), whole)
         file.unlink()
+
+
+@pytest.mark.filterwarnings("ignore:GaussianExcitation. the spectrum is carried")
+def test_a_missing_line_at_zero_frequency_is_remarked():
+    def remark(spectrum, **options):
+        motions = ss.GaussianExcitation(spectrum, 0.02, 64, **options)
+        return ss.run_ensemble(ss.Coulomb(mu=0.1), motions, members=4, seed=1)
+
+    soil = ss.Spectrum.kanai_tajimi(s0=0.01, frequency=15, damping=0.6)
+    e = remark(soil)
+    assert "no line at zero frequency" in e.remark
+    assert e.remark in e._repr_html_()
+    for other in (
+        remark(soil, zero_frequency=True),
+        remark(soil, period=256),
+        remark(ss.Spectrum.band_pass(s0=0.01, low=2, high=20)),
+        ss.run_ensemble(
+            ss.Coulomb(mu=0.1), ss.PoissonPulses.event("great near field"), members=2, seed=1
+        ),
+    ):
+        assert other.remark == ""
+    both = ss.WithVertical(ss.GaussianExcitation(soil, 0.02, 64), ratio=0.1)
+    assert ss.run_ensemble(ss.Coulomb(mu=0.1), both, members=4, seed=1).remark == e.remark

@@ -151,6 +151,57 @@ def test_the_only_record_in_an_archive_has_its_own_name(capsys, tmp_path):
     assert "left out" in err
 
 
+def test_archives_in_an_archive_are_read(capsys, tmp_path):
+    inner = as_peer_sends_it(tmp_path / "inner.zip")
+    with zipfile.ZipFile(tmp_path / "one.zip", "w") as archive:
+        archive.writestr("B_UP.csv", CSV)
+    with zipfile.ZipFile(tmp_path / "outer.zip", "w") as archive:
+        archive.write(inner, "a/inner.zip")
+        archive.write(tmp_path / "one.zip", "one.zip")
+        archive.writestr("broken.zip", b"PK\3\4 and no more")
+    with pytest.warns(RuntimeWarning) as said:
+        suite = ss.Suite.read(tmp_path / "outer.zip", on_error="skip")
+    assert "cannot read 1 of 13 files" in str(said[0].message) and "broken.zip" in str(
+        said[0].message
+    )
+    assert [name.rpartition("zip::")[2] for name in suite.file] == [
+        "RSN1_A_H1.AT2",
+        "RSN1_A_H2.AT2",
+    ]
+    assert all(ss.read_record(name).name for name in suite.file)  # under the names they have
+    assert any("one.zip" in one.file and "vertical" in one.reason for one in suite.left_out)
+
+
+def test_what_systems_and_people_put_into_archives_is_no_failure(tmp_path):
+    junk = {"a/.DS_Store": b"\0\1Bud1", "Thumbs.db": b"\xd0\xcf\0", "desktop.ini": b"[x]\n"}
+    with zipfile.ZipFile(tmp_path / "a.zip", "w") as archive:
+        for name, content in {**junk, "readme.txt": b"Records.\n", "b.csv": CSV}.items():
+            archive.writestr(name, content)
+    with pytest.warns(RuntimeWarning, match="no records: .*readme.txt"):
+        assert len(ss.Suite.read(tmp_path / "a.zip")) == 1
+    with zipfile.ZipFile(tmp_path / "b.zip", "w") as archive:
+        for name, content in {**junk, "b.csv": CSV}.items():
+            archive.writestr(name, content)
+    assert ss.read_record(tmp_path / "b.zip").dt == 0.1
+
+
+def test_a_workbook_is_no_archive_of_records(tmp_path):
+    with zipfile.ZipFile(tmp_path / "a.xlsx", "w") as archive:
+        archive.writestr("[Content_Types].xml", "<Types/>")
+        archive.writestr("xl/workbook.xml", "<workbook/>")
+    for read in (ss.read_record, ss.Suite.read):
+        with pytest.raises(ValueError, match="a workbook or document: save its table as CSV"):
+            read(tmp_path / "a.xlsx")
+
+
+@pytest.mark.parametrize(("name", "value"), [("units", 9.81), ("component", True)])
+def test_units_and_components_of_another_type_are_refused(tmp_path, name, value):
+    file = tmp_path / "a.csv"
+    file.write_text(CSV)
+    with pytest.raises(TypeError, match=f"read_record: {name} must be .*, got {value}"):
+        ss.read_record(file, **{name: value})
+
+
 def test_a_vertical_component_does_not_go_with_an_archive(capsys, tmp_path):
     file = as_peer_sends_it(tmp_path / "RSN1.zip")
     up = f"{file}::RSN1_A_UP.AT2"

@@ -23,6 +23,7 @@ def numbers(cells):
 
 
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::stickslip.PlausibilityWarning")  # T_s to 2 T_m, ky to k_max
 def test_the_methods_differ_as_the_page_says(measured):
     """All exact displacements of the page."""
     new = measured.table(measured.METHOD_HEADING, measured.method_rows())

@@ -1,6 +1,7 @@
 """Fragility curves: known answers from simulated data, bands, limits, files."""
 
 import csv
+import json
 import math
 import re
 import warnings
@@ -9,9 +10,12 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 import stickslip as ss
+from pages import ROOT, rows_below
 
 stats = pytest.importorskip("scipy.stats")
 optimize = pytest.importorskip("scipy.optimize")
+
+pytestmark = pytest.mark.filterwarnings("ignore:Fragility.*extrapolated")
 
 LEVELS = np.geomspace(0.1, 1.6, 9)
 
@@ -281,6 +285,32 @@ def test_polarities_and_stripes_of_a_record_stay_together():
     assert one.bands(0.9).high == pytest.approx(two.bands(0.9).high, abs=1e-6)
 
 
+@pytest.mark.parametrize("method", ["lognormal", "cloud"])
+def test_bands_tell_their_progress_and_can_be_interrupted(capsys, method):
+    f = ss.Fragility.fit(simulated(4, 60), im="pga_g", thresholds=[0.1], method=method)
+    calls = []
+    bands = f.bands(progress=lambda done, total: calls.append((done, total)))
+    assert [done for done, _ in calls] == sorted(done for done, _ in calls)
+    assert len(calls) >= 10
+    assert calls[-1] == (1000, 1000)
+    assert {total for _, total in calls} == {1000}
+    assert (bands.median == f.bands().median).all()
+    f.bands(progress=True)
+    assert "1,000 of 1,000 resamples" in capsys.readouterr().err
+
+    def interrupt(done, total):
+        calls.append((done, total))
+        if done >= 300:
+            raise KeyboardInterrupt
+
+    calls.clear()
+    with pytest.raises(KeyboardInterrupt):
+        f.bands(progress=interrupt)
+    assert calls[-1][0] < 500
+    with pytest.raises(TypeError, match=r"Fragility.bands: progress must be True, False or call"):
+        f.bands(progress="yes")
+
+
 def test_a_single_record_has_no_bands():
     t = simulated(1, records=1, draws=30, beta_parameters=0.3)
     f = ss.Fragility.fit(t, im="pga_g", thresholds=0.1)
@@ -302,8 +332,156 @@ def test_one_level_with_both_outcomes_fixes_no_dispersion():
     assert exceed[:2] == [0, 0]
     assert 0 < exceed[2] < 1
     for method in ("lognormal", "logit"):
-        with pytest.raises(ValueError, match="but for one level at most, so the fit is unbounded"):
+        with pytest.raises(ValueError, match=r"others but at 0.4 g, where 33.3 % do.* or more rec"):
             ss.Fragility.fit(t, im="pga_g", thresholds=0.1, method=method)
+
+
+def test_what_lies_beyond_the_stripes_is_marked(tmp_path):
+    """Medians at 0.28, 0.4 and 0.57 g, in stripes to 0.5 g and to 0.8 g."""
+    t = simulated(1, 400, levels=np.geomspace(0.12, 0.5, 6))
+    with pytest.warns(ss.regressions.RangeWarning) as caught:
+        f = ss.Fragility.fit(t, im="pga_g", thresholds=[0.05, 0.1, 0.2])
+    assert len(caught) == 1
+    text = "extrapolated: median of 0.2 m and HCLPF of 0.05 m outside 0.12 to 0.5 g"
+    assert text in str(caught[0].message)
+    assert text in repr(f)
+    assert f.im_range == (0.12, 0.5)
+    assert f.extrapolated.tolist() == [[False, True], [False, False], [True, False]]
+    assert json.loads(f.to_json())["extrapolated"] == ["hclpf", "", "median"]
+    with f.to_pelicun(tmp_path / "f.csv").open(newline="") as stream:
+        (row,) = csv.DictReader(stream)
+    assert row["Comment"] == text
+    assert text in f.to_openquake(tmp_path / "f.xml").read_text()
+    pytest.importorskip("matplotlib")
+    (axes,) = f.plot(level=None).axes
+    solid = [line for line in axes.get_lines() if line.get_linestyle() == "-"]
+    dashed = [line for line in axes.get_lines() if line.get_linestyle() == "--"]
+    assert (len(solid), len(dashed)) == (3, 7)  # one for the legend
+    for line in solid:
+        assert line.get_xdata()[[0, -1]].tolist() == [0.12, 0.5]
+    for line in dashed:
+        assert (line.get_xdata() <= 0.12).all() or (line.get_xdata() >= 0.5).all()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        f = ss.Fragility.fit(simulated(1, 400), im="pga_g", thresholds=[0.1, 0.2])
+    assert "extrapolated" not in repr(f)
+    assert not f.extrapolated.any()
+
+
+def test_the_page_says_what_stripes_to_3_g_change():
+    """The table of docs/fragility.md, and its shares in the highest stripe."""
+    text = (ROOT / "docs" / "fragility.md").read_text(encoding="utf-8")
+    heading = "| stripes up to | fit | median of 30 cm | its dispersion | its HCLPF |"
+    mu = ss.Random(ss.Coulomb, mu=ss.Lognormal(median=0.3, beta=0.3))
+    levels = [0.1, 0.2, 0.4, 0.8, 1.6, 3]
+    found = []
+    for count, separate in ((4, False), (6, False), (6, True)):
+        t = ss.sweep(
+            mu,
+            ss.sample_records().stripes(pga_g=levels[:count]),
+            members=100,
+            seed=1,
+            settle=True,
+        )
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RuntimeWarning)
+            f = ss.Fragility.fit(t, im="pga_g", thresholds=[0.05, 0.1, 0.3], separate=separate)
+        if count == 4:
+            shares = ", ".join(f"{100 * p:.0f}" for p in f.fractions()[1][:2, -1])
+            assert f"{shares} and {100 * f.fractions()[1][2, -1]:.0f} %" in text
+            assert f.extrapolated[:, 0].all()
+        else:
+            assert not f.extrapolated.any()
+        beyond = ", extrapolated" if f.extrapolated[2, 0] else ""
+        found.append(
+            [
+                f"{levels[count - 1]:g} g",
+                "separate" if separate else "one dispersion",
+                f"{f.median[2]:.3g} g{beyond}",
+                f"{f.beta[2]:.2f}",
+                f"{f.hclpf[2]:.2f} g",
+            ]
+        )
+        if (count, separate) == (6, False):
+            assert f"where it is {f.p_shared:.1g}." in text
+    assert rows_below(text, heading) == found
+
+
+# ---- one dispersion for all thresholds
+
+
+def unequal(seed, betas, records=60, draws=1):
+    """Displacements of 0.05, 0.1 or 0.2 m, above capacities that have these dispersions."""
+    rng = np.random.default_rng(seed)
+    normal = rng.standard_normal(records)
+    medians = 0.3 * 1.6 ** np.arange(len(betas))
+    capacity = [
+        m * np.exp(b * (0.8 * normal + 0.6 * rng.standard_normal(records)))
+        for m, b in zip(medians, betas)
+    ]
+    exceeds = LEVELS[:, np.newaxis] > np.maximum.accumulate(capacity)[:, np.newaxis]
+    d = np.array([0.0, 0.06, 0.12, 0.24])[exceeds.sum(axis=0)]
+    return table_of(np.tile(d.reshape(1, -1, 1), (draws, 1, 1)), LEVELS, records)
+
+
+@pytest.mark.parametrize("method", ["lognormal", "logit"])
+def test_the_likelihood_ratio_is_that_of_two_fits(method):
+    thresholds = [0.05, 0.1, 0.2]
+    t = unequal(3, [0.36, 0.4, 0.44])
+    f = ss.Fragility.fit(t, im="pga_g", thresholds=thresholds, method=method)
+    scale = math.pi / math.sqrt(3)
+    cdf = stats.norm.cdf if method == "lognormal" else lambda u: stats.logistic.cdf(scale * u)
+
+    def least(group):
+        minus = likelihood(t, group, cdf)
+        start = [math.log(0.4), *np.log([0.3, 0.5, 0.8][: len(group)])]
+        return optimize.minimize(minus, start, method="BFGS", options={"gtol": 1e-7}).fun
+
+    ratio = 2 * (least(thresholds) - sum(least([one]) for one in thresholds))
+    assert f._model.likelihood_ratio()[0] == pytest.approx(ratio, abs=1e-6)
+
+
+def test_a_dispersion_that_is_not_shared_is_doubted():
+    with pytest.warns(
+        RuntimeWarning, match=r"share a dispersion of .* contradict it \(p = "
+    ) as caught:
+        f = ss.Fragility.fit(unequal(1, [0.2, 0.6], 400), im="pga_g", thresholds=[0.05, 0.1])
+    assert f.p_shared < 0.01
+    separate = ss.Fragility.fit(
+        unequal(1, [0.2, 0.6], 400), im="pga_g", thresholds=[0.05, 0.1], separate=True
+    )
+    assert math.isnan(separate.p_shared)
+    for label, beta in zip(f.labels, separate.beta):
+        assert f"{label} {beta:.2f}" in str(caught[0].message)
+
+
+def test_equal_dispersions_are_rarely_doubted():
+    # The probability of more than 5 of 100 at 1 % is 5e-4. Draws that are alike add no evidence:
+    # a ratio that took the 20 responses to each record as independent would doubt most.
+    p, naive = [], []
+    for seed in range(100):
+        t = unequal(seed, [0.4, 0.4], 18, draws=20)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            f = ss.Fragility.fit(t, im="pga_g", thresholds=[0.05, 0.1])
+        p.append(f.p_shared)
+        naive.append(stats.chi2.sf(f._model.likelihood_ratio()[0], 1))
+    assert (np.array(p) < 0.01).sum() <= 5
+    assert (np.array(naive) < 0.01).mean() > 0.25
+    assert math.isnan(ss.Fragility.fit(simulated(1), im="pga_g", thresholds=0.1).p_shared)
+
+
+def test_separate_fits_need_two_levels_with_both_outcomes_for_each_threshold():
+    """0.05 m has them, 0.2 m is exceeded in the highest stripe alone, and has none of its own."""
+    t = simulated(2, 40, levels=LEVELS[:6])
+    t.peak[t.peak > 0.15] = 0.15
+    t.peak[0, -3:] = 0.25
+    with pytest.raises(ValueError, match=r"exceed 0.2 m .* where 7.5 % do.*separate=False, which"):
+        ss.Fragility.fit(t, im="pga_g", thresholds=[0.05, 0.2], separate=True)
+    t.peak[0, -43] = 0.25  # one record of the stripe below is enough
+    f = ss.Fragility.fit(t, im="pga_g", thresholds=[0.05, 0.2], separate=True)
+    alone = ss.Fragility.fit(t, im="pga_g", thresholds=0.2)
+    assert f.beta[1] == pytest.approx(alone.beta[0], rel=1e-7)
 
 
 def test_an_intensity_is_a_column_a_short_name_or_a_function():
@@ -315,7 +493,9 @@ def test_an_intensity_is_a_column_a_short_name_or_a_function():
     )
     assert same.median == pytest.approx(by.median, rel=1e-9)
     assert ss.Fragility.fit(t, im="cav", thresholds=0.05).im_unit == "m/s"
-    with pytest.raises(ValueError, match=r"'sa_g' is not.*; the table has pgv, pga_g, arias, cav"):
+    with pytest.raises(
+        ValueError, match=r"'sa_g' is not.*; the table has pgv, pga_g, arias, cav, sa\(period\)"
+    ):
         ss.Fragility.fit(t, im="sa_g", thresholds=0.05)
     alone = simulated(1)
     with pytest.raises(ValueError, match=r"'pgv' is not.*; the table has pga_g"):
@@ -326,6 +506,112 @@ def test_an_intensity_is_a_column_a_short_name_or_a_function():
     t = ss.sweep(ss.Coulomb(mu=0.01), ss.Suite(quiet))
     with pytest.raises(ValueError, match=r"pga_g must be positive .*, got 0 for 'quiet'"):
         ss.Fragility.fit(t, im="pga_g", thresholds=0.05)
+
+
+def test_a_pseudo_acceleration_is_a_short_name_and_can_be_exported(tmp_path):
+    t = ss.sweep(ss.Coulomb(mu=0.1), ss.sample_records().stripes(pgv=[0.2, 0.3, 0.4, 0.5]))
+    by = ss.Fragility.fit(t, im="sa(1.0)", thresholds=0.05)
+    assert (by.im, by.im_unit, by.im_period, by.im_directions) == ("sa_g", "g", 1.0, "axis")
+    assert repr(by).startswith("<Fragility by sa_g at 1 s: ")
+
+    def value(motion):
+        return ss.response_spectrum(motion, [1.0]).values.item() / ss.STANDARD_GRAVITY
+
+    f = ss.Fragility.fit(t, im=value, thresholds=0.05)
+    assert by.median == pytest.approx(f.median, rel=1e-9)
+    assert ",Spectral Acceleration|1.0,g," in by.to_pelicun(tmp_path / "f.csv").read_text()
+    assert 'imt="SA(1)"' in by.to_openquake(tmp_path / "f.xml").read_text()
+    with pytest.raises(ValueError, match=r"im must be pga_g, pgv or sa\(1.0\), got 'value'"):
+        f.to_pelicun(tmp_path / "f.csv")
+    f = ss.Fragility.fit(t, im=lambda motion: value(motion), thresholds=0.05)
+    with pytest.raises(ValueError, match=r"got 'function of the motion'"):
+        f.to_openquake(tmp_path / "f.xml")
+    stripes = ss.sample_records().stripes(sa_g=[0.2, 0.5, 1.0], period=0.5)
+    t = ss.sweep(ss.Coulomb(mu=0.1), stripes)
+    both = [ss.Fragility.fit(t, im=im, thresholds=0.05) for im in ("sa_g", "SA(0.5)")]
+    assert both[0] == both[1]
+    assert both[0].im_range == (0.2, 1.0)
+    with pytest.raises(ValueError, match=r"'sa\(one\)' is not"):
+        ss.Fragility.fit(t, im="sa(one)", thresholds=0.05)
+
+
+# ---- pairs
+
+
+def pairs(exchanged=False):
+    """Two components of different strength, from the same samples in another order."""
+    made = []
+    for i in range(12):
+        first, second = (ss.sample_records()[j] for j in (i, i + 6))
+        n = min(len(first), len(second), 2000)
+        a, b = first.acceleration[:n], 0.6 * second.acceleration[:n]
+        a, b = (b, a) if exchanged else (a, b)
+        made.append(ss.GroundMotion(a, dt=0.01, transverse=b, name=f"pair {i}"))
+    return ss.Suite(made)
+
+
+BLOCK = ss.PlanarSlider(ss.Coulomb(mu=0.05))
+
+
+@pytest.mark.parametrize("im", ["pga_g", "pgv", "sa(0.5)"])
+def test_which_component_comes_first_does_not_matter_in_the_plane(im):
+    name, period = ("sa_g", 0.5) if im.startswith("sa") else (im, None)
+    levels = {
+        "pga_g": [0.05, 0.1, 0.2, 0.4],
+        "pgv": [0.1, 0.15, 0.2, 0.3],
+        "sa_g": [0.1, 0.3, 0.9],
+    }[name]
+    fits = []
+    for exchanged in (False, True):
+        suite = pairs(exchanged)
+        tables = [
+            ss.sweep(BLOCK, suite, settle=True),
+            ss.sweep(BLOCK, suite.stripes(**{name: levels}, period=period), settle=True),
+        ]
+        fits.append(
+            [
+                ss.Fragility.fit(tables[0], im=im, thresholds=[0.05], method="cloud"),
+                ss.Fragility.fit(tables[1], im=im, thresholds=[0.03, 0.05]),
+            ]
+        )
+    for one, other in zip(*fits):
+        assert one.median == pytest.approx(other.median, rel=1e-12)
+        assert one.beta == pytest.approx(other.beta, rel=1e-12)
+        assert one.im_directions == other.im_directions == "rotd50"
+        assert repr(one).startswith("<Fragility by RotD50 of ")
+        assert json.loads(one.to_json())["im_directions"][0] == "rotd50"
+    assert fits[0][1].im_range == (levels[0], levels[-1])
+
+
+def test_stripes_of_pairs_are_levels_of_their_directions(tmp_path):
+    suite = pairs()
+    for directions in ("rotd50", "rotd100"):
+        scaled = suite.stripes(pga_g=[0.2, 0.4], directions=directions)
+        for motion, level in zip(scaled, scaled.stripe):
+            found = getattr(ss.rotd(motion), directions).item() / ss.STANDARD_GRAVITY
+            assert found == pytest.approx(level, rel=1e-12)
+        assert set(scaled.directions) == {directions}
+    along = suite.stripes(pga_g=[0.2, 0.4], directions="axis")
+    assert along.pga_g == pytest.approx(along.stripe, rel=1e-14)
+    assert "directions" not in along.metadata
+    # Along one axis the levels are those of the stripes, too; of motions as they are, of the axis.
+    block, striped = ss.Coulomb(mu=0.05), suite.stripes(pga_g=[0.1, 0.2, 0.4, 0.8])
+    f = ss.Fragility.fit(ss.sweep(block, striped), im="pga_g", thresholds=0.05)
+    assert (f.im_directions, f.im_range) == ("rotd50", (0.1, 0.8))
+    f = ss.Fragility.fit(ss.sweep(block, suite), im="pga_g", thresholds=0.05, method="cloud")
+    assert (f.im_directions, f.im_range) == ("axis", (suite.pga_g.min(), suite.pga_g.max()))
+    with pytest.raises(ValueError, match="directions must be 'axis', 'rotd50' or 'rotd100' for pg"):
+        suite.stripes(pga_g=[0.2], directions="rotd00")
+    # A table from a file lacks the motions of pairs: what stripes say is enough.
+    pytest.importorskip("h5py")
+    t = ss.sweep(BLOCK, striped, settle=True)
+    t.save(tmp_path / "t.h5")
+    saved = ss.SweepTable.open(tmp_path / "t.h5")
+    fits = [ss.Fragility.fit(one, im="pga_g", thresholds=0.05) for one in (t, saved)]
+    assert fits[0] == fits[1]
+    ss.sweep(BLOCK, suite).save(tmp_path / "t.h5")
+    with pytest.raises(ValueError, match="the rotd50 of pga_g needs the ground motions"):
+        ss.Fragility.fit(ss.SweepTable.open(tmp_path / "t.h5"), im="pga_g", thresholds=0.05)
 
 
 def test_a_saved_table_has_the_same_fragility(tmp_path):
@@ -425,7 +711,7 @@ def test_a_fragility_is_a_table_and_a_picture():
     pytest.importorskip("matplotlib")
     (axes,) = f.plot(level=None).axes
     assert axes.get_xlabel() == "peak ground acceleration [g]"
-    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["0.05 m", "0.1 m"]
+    assert [text.get_text() for text in axes.get_legend().get_texts()[:2]] == ["0.05 m", "0.1 m"]
 
 
 def test_pelicun_reads_the_curves(tmp_path):

@@ -8,10 +8,12 @@ import warnings
 import numpy as np
 import pytest
 import stickslip as ss
-from test_fragility import simulated
+from test_fragility import LEVELS, simulated
 
 integrate = pytest.importorskip("scipy.integrate")
 stats = pytest.importorskip("scipy.stats")
+
+pytestmark = pytest.mark.filterwarnings("ignore:Fragility.*extrapolated")
 
 
 @pytest.fixture(scope="module")
@@ -258,6 +260,20 @@ def test_usgs_curves_of_several_editions_or_places_are_refused(tmp_path, curves)
         ss.read_hazard(file)
 
 
+def test_deep_nesting_and_many_points(tmp_path):
+    file = tmp_path / "hazard.json"
+    for text in ("[" * 200_000, '{"response":' * 200_000):
+        file.write_text(text)
+        with pytest.raises(ValueError, match=r"hazard.json': is nested too deeply"):
+            ss.read_hazard(file)
+    im = np.geomspace(1e-4, 10, 200_000)
+    rate = 1e-4 * im**-2.0
+    file.write_text("\n".join(f"{a!r},{b!r}" for a, b in zip(im.tolist(), rate.tolist())))
+    hazard = ss.read_hazard(file)  # some tenths of a second
+    assert hazard.im.tolist() == im.tolist()
+    assert hazard.rate.tolist() == rate.tolist()
+
+
 def test_rates_are_a_table_and_a_picture(fragility):
     h = fragility.rate_of_exceedance(power_law(1e-4, 2))
     frame = pytest.importorskip("pandas") and h.to_dataframe()
@@ -266,10 +282,42 @@ def test_rates_are_a_table_and_a_picture(fragility):
     assert "/year" in repr(h)
     pytest.importorskip("matplotlib")
     (axes,) = h.plot().axes
-    # The area under the contributions is one.
-    for line in axes.get_lines()[:2]:
+    # The area under the contributions is one: a solid line, and two dashed ones beyond the stripes.
+    area = {}
+    for line in axes.get_lines()[:6]:
         x, y = line.get_data()
-        assert np.trapezoid(y, np.log(x)) == pytest.approx(1, abs=0.01)
+        area.setdefault(line.get_color(), []).append(np.trapezoid(y, np.log(x)))
+    assert [sum(parts) for parts in area.values()] == pytest.approx([1, 1], abs=0.01)
+    for i, parts in enumerate(area.values()):
+        assert sum(parts[1:]) == pytest.approx(h.extrapolated[i], abs=0.01)
+
+
+def test_the_share_from_beyond_the_stripes_is_that_of_the_integral(fragility):
+    """Trapezoids between the ends of the stripes, and over all intensities."""
+    k, (low, high) = 2.0, fragility.im_range
+    h = fragility.rate_of_exceedance(power_law(1e-4, k))
+    for i in range(2):
+        m, beta = math.log(fragility.median[i]), fragility.beta[i]
+        u = np.linspace(m - 12 * beta, m + 12 * beta, 400_001)
+        part = stats.norm.cdf((u - m) / beta) * k * 1e-4 * np.exp(-k * u)
+        inside = (u >= math.log(low)) & (u <= math.log(high))
+        share = 1 - np.trapezoid(part * inside, u) / np.trapezoid(part, u)
+        assert h.extrapolated[i] == pytest.approx(share, abs=1e-4)  # a step of 1e-5 at each end
+    # Ends of the stripes at points of the hazard curve, or far from them, change no rate.
+    im = np.geomspace(low, high, 7)
+    same = fragility.rate_of_exceedance(ss.Hazard(im, 1e-4 * im**-k))
+    assert same.rate == pytest.approx(h.rate, rel=1e-12)
+    assert same.extrapolated == pytest.approx(h.extrapolated, rel=1e-9)
+
+
+def test_a_rate_from_beyond_the_stripes_is_marked():
+    f = ss.Fragility.fit(simulated(1, levels=LEVELS[:6]), im="pga_g", thresholds=[0.1, 0.15])
+    with pytest.warns(
+        ss.regressions.RangeWarning,
+        match=r"\d+ % of the rate for 0.15 m comes from outside .* 0.1 to",
+    ):
+        h = f.rate_of_exceedance(power_law(1e-4, 0.5))
+    assert "% extrapolated)" in repr(h)
 
 
 def test_a_logistic_curve_under_a_steep_hazard_has_no_rate():

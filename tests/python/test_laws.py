@@ -139,6 +139,7 @@ def test_the_casters_of_the_thesis_are_kept_to_compare(l_over_w, s, _, s_thesis)
     assert law.reach == pytest.approx(3 * l_over_w * 0.02, rel=1e-15)
 
 
+@pytest.mark.filterwarnings("ignore:.* trail = :stickslip.PlausibilityWarning")
 def test_a_real_wheel_never_resists_more_than_its_moment_allows():
     # |F| <= mu N w / (4 l): ERRATA A.15
     for l_over_w in (0.1, 0.5, 1.5, 10.0, 1e4):

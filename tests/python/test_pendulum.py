@@ -189,7 +189,10 @@ def test_a_remark_beyond_a_fifth_of_a_radian():
         (lambda: ss.Slider(FIVE, slope_degrees=3), "slope_degrees must be 0"),
         (lambda: ss.Slider(FIVE, one_way=True), "both ways"),
         (lambda: ss.FrictionPendulum(radius=2, law=FIVE), "already is a pendulum"),
-        (lambda: ss.Slider(FIVE, stops=ss.Stops(gap=9, restitution=0)), "within its own capacity"),
+        (
+            lambda: ss.Slider(FIVE, stops=ss.Stops(gap=2.9, restitution=0)),
+            "within its own capacity",
+        ),
         (lambda: FIVE.trace([9]), r"path\[0\] must be finite and within the capacity"),
         (lambda: FIVE.trace([math.nan]), r"path"),
         (lambda: ss.integrate(FIVE, QUAKE, displacement=9), "between the stops"),
@@ -319,3 +322,42 @@ def test_a_loop_knows_its_elements_and_surfaces():
         [0.055245, 0.011811, 0.027559, -0.094615], abs=1e-15
     )
     assert triple.surfaces.peak == pytest.approx(abs(triple.surfaces.displacement).max(axis=1))
+
+
+# Halves of unequal capacity, whose last stop the bearing hits.
+UNEQUAL = ss.TriplePendulum([0.3, 1.8, 2.6], [0.02, 0.05, 0.09], [0.09, 0.22, 0.31])
+
+
+def test_at_the_last_stop_all_elements_are_at_theirs():
+    n = np.arange(401)
+    motion = ss.GroundMotion(0.9 * (2 * np.sin(0.7 * n) + 1.3 * np.cos(1.9 * n + 0.4)), dt=0.3)
+    r = ss.integrate(UNEQUAL, motion)
+    assert len(r.impacts) == 87  # as an independent program counts in 34 digits
+    assert (r.elements.stops >= 87).all()
+    assert (r.surfaces.stops >= 87).all()
+    assert r.elements.stops[:2].tolist() == [87, 87]
+
+
+def test_a_path_to_the_last_stop_and_back_stops_each_element_twice():
+    most = UNEQUAL.capacity
+    loop = UNEQUAL.trace([most, -most])
+    assert loop.elements.stops.tolist() == [2, 2, 2, 2]
+    assert UNEQUAL.trace([0.999 * most, -0.5 * most]).elements.stops.min() == 0
+
+
+@pytest.mark.parametrize("contact", ["flight", "clipped"])
+def test_the_losses_of_elements_are_those_of_the_bearing_with_landings(contact):
+    rng = np.random.default_rng(11)
+    n = np.arange(200)
+    landings = 0
+    for _ in range(20):
+        w, f = rng.uniform(0.3, 2, 3), rng.uniform(0, 6, 3)
+        motion = ss.GroundMotion(
+            2 * np.sin(w[0] * n + f[0]) + 1.3 * np.cos(w[1] * n + f[1]),
+            dt=0.1,
+            vertical=14 * np.cos(w[2] * n + f[2]),
+        )
+        r = ss.integrate(UNEQUAL, motion, settle=True, contact=contact)
+        landings += (r.events["kind"] == "landing").sum()
+        assert r.elements.dissipated.sum() == pytest.approx(r.energy.dissipated, rel=1e-12)
+    assert bool(landings > 100) is (contact == "flight")

@@ -489,3 +489,23 @@ def test_the_command_slides_stations(capsys, tmp_path):
     ):
         assert main([*options, *more]) == 2
         assert why in capsys.readouterr().err
+
+
+def test_a_state_that_is_not_finite_names_its_entry():
+    for arguments, message in (
+        (((math.nan, 1),), r"PlanarState: displacement\[0\] must be finite, got nan m"),
+        (((0, 1), (0, math.inf)), r"PlanarState: velocity\[1\] must be finite, got inf m/s"),
+        (((0, 1), (0, 0), -1), "sliding_distance must be finite and at least 0, got -1 m"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            ss.PlanarState(*arguments)
+
+
+@pytest.mark.filterwarnings("ignore:.* rate = :stickslip.PlausibilityWarning")
+def test_an_overflow_names_what_may_have_caused_it():
+    pair = ss.GroundMotion([0, 3, 0, 3, 0], dt=0.5, transverse=[0, 2, 0, 2, 0])
+    with pytest.raises(OverflowError, match=r"velocity at the start \(1e\+200, 0\) m/s"):
+        ss.integrate(ss.PlanarSlider(ss.Coulomb(mu=0.1)), pair, velocity=(1e200, 0))
+    law = ss.VelocityDependent(mu_slow=0.1, mu_fast=0.2, rate=1e150)
+    with pytest.raises(OverflowError, match=r"the slider is .*rate=1e\+150"):
+        ss.integrate(ss.PlanarSlider(law), pair)

@@ -1,11 +1,14 @@
 """Arguments in a likely wrong unit warn, usual ones never do; slips of g for m/s^2 are remarked."""
 
+import re
 import warnings
 
 import numpy as np
 import pytest
 import stickslip as ss
 from stickslip import cli
+from stickslip._core import _plausible_ranges
+from stickslip.regressions import SaygiliRathje2008
 
 G = ss.STANDARD_GRAVITY
 KUMAR = {"mu_ref": 0.06, "reference_pressure": 50e6, "contact_radius": 0.2}
@@ -25,7 +28,10 @@ KUMAR = {"mu_ref": 0.06, "reference_pressure": 50e6, "contact_radius": 0.2}
             lambda: ss.Stribeck(mu_static=30, mu_kinetic=0.2, velocity=0.1, exponent=2),
             r"Stribeck: mu_static = 30 .* mu_static=0\.3",
         ),
-        (lambda: ss.Degrading(distance=[0, 1], mu=[30, 20]), r"Degrading: mu = 30 .* mu=0\.3"),
+        (
+            lambda: ss.Degrading(distance=[0, 1], mu=[30, 20]),
+            r"Degrading: mu\[0\] = 30 .* mu\[0\]=0\.3",
+        ),
         (lambda: ss.FrictionPendulum(radius=2, mu=4), r"FrictionPendulum: mu = 4 .* mu=0\.04"),
         (
             lambda: ss.VelocityDependent(mu_slow=0.03, mu_fast=0.06, rate=0.5),
@@ -77,6 +83,485 @@ def test_a_value_in_another_unit_warns_with_the_one_that_may_be_meant(make, mess
     assert caught[0].filename == __file__
 
 
+BUILDING = {"masses": [2e5, 2e5, 1.6e5], "stiffnesses": [2.4e8, 2e8, 1.6e8], "damping_ratio": 0.03}
+MOTION = ss.GroundMotion(np.sin(np.linspace(0, 20, 500)), dt=0.02)
+
+
+def soft(factor_of_mass=1.0, factor_of_stiffness=1.0):
+    of = {"masses": factor_of_mass, "stiffnesses": factor_of_stiffness}
+    return ss.Structure.shear_building(
+        **BUILDING | {name: np.multiply(BUILDING[name], factor) for name, factor in of.items()}
+    )
+
+
+def isolated(mass):
+    building = ss.Structure.shear_building(**BUILDING)
+    return ss.IsolatedStructure(ss.Coulomb(mu=0.1), building, base_mass=mass)
+
+
+def pendulum(make, radii, mu, unit):
+    return lambda value: make(np.multiply(radii, value / unit), mu)
+
+
+def spectrum(make, **given):
+    return lambda name: lambda value: make(**{**given, name: value})
+
+
+def slope(name):
+    given = {"ky_g": 0.1, "height": 50, "shear_velocity": 600}
+    return lambda value: ss.FlexibleSlope(**{**given, name: value})
+
+
+LINER = {"mu_slow": 0.03, "mu_fast": 0.06}
+TRAVEL = {"gap": 0.3, "restitution": 0}
+kanai_tajimi = spectrum(ss.Spectrum.kanai_tajimi, s0=0.01, frequency=15, damping=0.6)
+clough_penzien = spectrum(
+    ss.Spectrum.clough_penzien,
+    s0=0.01,
+    frequency=15,
+    damping=0.6,
+    filter_frequency=1.5,
+    filter_damping=0.6,
+)
+kumar = spectrum(
+    ss.KumarFriction, **{**KUMAR, "static_pressure": 50e6, "temperature": 20, "rate": 100}
+)
+
+# For each argument of each constructor: the quantity, a call, its name, a plausible value and an
+# implausible one, and the words for the likely unit; or of what is computed from several.
+ARGUMENTS = [
+    ("coefficient of friction", lambda v: ss.Coulomb(mu=v), "mu", 0.3, 30, "percent, give mu=0.3"),
+    (
+        "rate",
+        lambda v: ss.VelocityDependent(**LINER, rate=v),
+        "rate",
+        50,
+        0.05,
+        "s/mm, give rate=50",
+    ),
+    (
+        "rate",
+        lambda v: ss.VelocityDependent(**LINER, rate=v),
+        "rate",
+        30,
+        0.77,
+        "s/inch, give rate=30.31",
+    ),
+    (
+        "pressure",
+        kumar("static_pressure"),
+        "static_pressure",
+        5e7,
+        7250,
+        "psi, give static_pressure=4.999e+07",
+    ),
+    ("length", kumar("contact_radius"), "contact_radius", 0.2, 200, "mm, give contact_radius=0.2"),
+    ("temperature", kumar("temperature"), "temperature", 20, 293.15, "K, give temperature=20"),
+    (
+        "diffusivity",
+        kumar("diffusivity"),
+        "diffusivity",
+        4.44e-6,
+        4.44,
+        "mm^2/s, give diffusivity=4.44e-06",
+    ),
+    (
+        "conductivity",
+        kumar("conductivity"),
+        "conductivity",
+        18,
+        0.018,
+        "W/(mm K), give conductivity=18",
+    ),
+    (
+        "sliding velocity",
+        lambda v: ss.Stribeck(mu_static=0.3, mu_kinetic=0.2, velocity=v, exponent=2),
+        "velocity",
+        0.1,
+        100,
+        "mm/s, give velocity=0.1",
+    ),
+    (
+        "distance slid",
+        lambda v: ss.Degrading(distance=[0, v], mu=[0.3, 0.2]),
+        "distance[1]",
+        0.5,
+        500,
+        "mm, give distance[1]=0.5",
+    ),
+    (
+        "yield acceleration",
+        lambda v: ss.Degrading(distance=[0], ky_g=[v]),
+        "ky_g",
+        0.2,
+        1.96,
+        "m/s^2, give ky_g=0.1999",
+    ),
+    (
+        "length",
+        lambda v: ss.Caster.from_geometry(mu=0.3, trail=v, wheel_width=0.02),
+        "trail",
+        0.03,
+        30,
+        "mm, give trail=0.03",
+    ),
+    (
+        "length",
+        lambda v: ss.Caster.from_geometry(mu=0.3, trail=0.03, wheel_width=v),
+        "wheel_width",
+        0.02,
+        20,
+        "mm, give wheel_width=0.02",
+    ),
+    ("length", lambda v: ss.Stops(**{**TRAVEL, "gap": v}), "gap", 0.1, 10, "cm, give gap=0.1"),
+    (
+        "length",
+        lambda v: ss.Stops(**TRAVEL, backward=v),
+        "backward",
+        0.3,
+        300,
+        "mm, give backward=0.3",
+    ),
+    (
+        "radius",
+        lambda v: ss.FrictionPendulum(radius=v, mu=0.06),
+        "radius",
+        2.2,
+        2200,
+        "mm, give radius=2.2",
+    ),
+    (
+        "radius",
+        lambda v: ss.FrictionPendulum(radius=v, mu=0.06),
+        "radius",
+        2.2,
+        88,
+        "inches, give radius=2.235",
+    ),
+    (
+        "period",
+        lambda v: ss.FrictionPendulum(period=v, mu=0.06),
+        "period",
+        3,
+        3000,
+        "ms, give period=3",
+    ),
+    (
+        "damper",
+        lambda v: ss.FrictionPendulum(radius=2.2, mu=0.06, damping=v),
+        "damping",
+        1,
+        1e5,
+        "check its unit",
+    ),
+    (
+        "radius",
+        pendulum(ss.DoublePendulum, [1, 2], [0.03, 0.05], 2),
+        "radii[1]",
+        2,
+        2000,
+        "mm, give radii[1]=2",
+    ),
+    (
+        "radius",
+        pendulum(ss.TriplePendulum, [0.3937, 3.7465, 3.7465], [0.01, 0.04, 0.08], 3.7465),
+        "radii[1]",
+        3.7465,
+        3746.5,
+        "mm, give radii[1]=3.747",
+    ),
+    (
+        "length",
+        lambda v: ss.TriplePendulum([0.3937, 3.7465, 3.7465], [0.01, 0.04, 0.08], [v / 7, v, v]),
+        "capacities[1]",
+        0.5043,
+        504.3,
+        "mm, give capacities[1]=0.5043",
+    ),
+    ("radius", lambda v: ss.MultiPendulum([v], [0.03]), "radii", 2, 200, "cm, give radii=2"),
+    (
+        "radius",
+        lambda v: ss.QuintuplePendulum(
+            np.multiply([0.2, 0.5, 0.5, 1, 1], v), [0.01, 0.03, 0.03, 0.05, 0.05]
+        ),
+        "radii[3]",
+        1,
+        1000,
+        "mm, give radii[3]=1",
+    ),
+    (
+        "slope",
+        lambda v: ss.Slider(ss.Coulomb(mu=0.6), slope_degrees=v),
+        "slope_degrees",
+        20,
+        0.35,
+        "radians, give slope_degrees=20.05",
+    ),
+    (
+        "period",
+        lambda v: ss.Slider(ss.Coulomb(mu=0.1), period=v),
+        "period",
+        2,
+        2000,
+        "ms, give period=2",
+    ),
+    (
+        "angular frequency",
+        lambda v: ss.Slider(ss.Coulomb(mu=0.1), v),
+        "natural_frequency",
+        3,
+        2.4e5,
+        "check its unit",
+    ),
+    ("damper", lambda v: ss.Slider(ss.Coulomb(mu=0.1), 3, v), "damping", 1, 1e5, "check its unit"),
+    (
+        "damping ratio of one mode",
+        lambda v: ss.Slider(ss.Coulomb(mu=0.1), 3, damping_ratio=v),
+        "damping_ratio",
+        0.05,
+        5,
+        "percent, give damping_ratio=0.05",
+    ),
+    (
+        "period",
+        lambda v: ss.PlanarSlider(ss.Coulomb(mu=0.1), period=v),
+        "period",
+        2,
+        2000,
+        "ms, give period=2",
+    ),
+    (
+        "radius",
+        lambda v: ss.Slider.in_cup(ss.Coulomb(mu=0.1), cup_radius=v),
+        "cup_radius",
+        0.3,
+        300,
+        "mm, give cup_radius=0.3",
+    ),
+    ("damper", lambda v: ss.ViscousSlider(v), "damping", 1, 1e5, "check its unit"),
+    (
+        "first period of a building",
+        lambda v: soft(factor_of_stiffness=v),
+        "the first period",
+        1,
+        1e-3,
+        "the stiffnesses are in kN/m, it is 0.4",
+    ),
+    (
+        "first period of a building",
+        lambda v: soft(factor_of_mass=v),
+        "the first period",
+        1,
+        1e-3,
+        "the masses are in t, it is 0.4",
+    ),
+    (
+        "first period of a building",
+        lambda v: ss.Structure([[2e5]], [[0]], [[v]]),
+        "the first period",
+        6e7,
+        6e4,
+        "the stiffnesses are in kN/m, it is 0.3628 s",
+    ),
+    (
+        "first period of modes",
+        lambda v: ss.Structure.from_modes(
+            mass_fractions=[0.7], frequencies=[v], damping_ratios=[0.05]
+        ),
+        "the first period",
+        3.1,
+        0.5,
+        "the frequencies are in Hz, it is 2 s",
+    ),
+    (
+        "damping ratio",
+        lambda v: ss.Structure.shear_building(**BUILDING | {"damping_ratio": v}),
+        "damping_ratio",
+        0.03,
+        3,
+        "percent, give damping_ratio=0.03",
+    ),
+    (
+        "base mass over the mean mass of a floor",
+        isolated,
+        "base_mass over",
+        2e5,
+        200,
+        "base_mass is in t, it is 1.071",
+    ),
+    ("yield acceleration", slope("ky_g"), "ky_g", 0.1, 0.98, "m/s^2, give ky_g=0.09993"),
+    (
+        "first period of a slope",
+        lambda v: ss.FlexibleSlope(ky_g=0.1, height=30000 / v, shear_velocity=v),
+        "the first period",
+        600,
+        50,
+        "height and shear_velocity are exchanged, it is 0.3333 s",
+    ),
+    (
+        "shear-wave velocity",
+        slope("rock_velocity"),
+        "rock_velocity",
+        1200,
+        1.2,
+        "km/s, give rock_velocity=1200",
+    ),
+    (
+        "damping ratio",
+        slope("damping_ratio"),
+        "damping_ratio",
+        0.15,
+        15,
+        "percent, give damping_ratio=0.15",
+    ),
+    (
+        "reference strain",
+        lambda v: ss.HyperbolicSoil(reference_strain=v),
+        "reference_strain",
+        5e-4,
+        0.05,
+        "percent, give reference_strain=0.0005",
+    ),
+    (
+        "spectral density",
+        lambda v: ss.Spectrum.white(s0=v),
+        "s0",
+        0.01,
+        100,
+        "cm^2/s^3, give s0=0.01",
+    ),
+    (
+        "spectral density",
+        lambda v: ss.Spectrum.band_pass(s0=v, low=1, high=9),
+        "s0",
+        0.01,
+        100,
+        "cm^2/s^3, give s0=0.01",
+    ),
+    (
+        "damping ratio of one mode",
+        kanai_tajimi("damping"),
+        "damping",
+        0.6,
+        60,
+        "percent, give damping=0.6",
+    ),
+    ("angular frequency", kanai_tajimi("frequency"), "frequency", 15, 15000, "check its unit"),
+    (
+        "damping ratio of one mode",
+        clough_penzien("filter_damping"),
+        "filter_damping",
+        0.6,
+        60,
+        "percent, give filter_damping=0.6",
+    ),
+    (
+        "ground acceleration",
+        lambda v: ss.HarmonicMotion(v, 3, 10),
+        "amplitude",
+        3,
+        300,
+        "cm/s^2, give amplitude=3",
+    ),
+    (
+        "ground acceleration",
+        lambda v: ss.PoissonPulses(rate=2, half_width=0.2, sigma=v, duration=9),
+        "sigma",
+        2,
+        200,
+        "cm/s^2, give sigma=2",
+    ),
+    (
+        "period",
+        lambda v: ss.PoissonPulses(rate=2, half_width=v, sigma=1, duration=9),
+        "half_width",
+        0.2,
+        200,
+        "ms, give half_width=0.2",
+    ),
+    (
+        "frequency in Hz",
+        lambda v: ss.PoissonPulses.from_earthquake(
+            rms_acceleration=1, center_frequency_hz=v, duration=9
+        ),
+        "center_frequency_hz",
+        20,
+        126,
+        "rad/s, give center_frequency_hz=20.05",
+    ),
+    (
+        "ratio of components",
+        lambda v: ss.WithVertical(ss.PoissonPulses.event("great near field"), ratio=v),
+        "ratio",
+        0.65,
+        65,
+        "percent, give ratio=0.65",
+    ),
+    (
+        "ratio of components",
+        lambda v: ss.WithTransverse(ss.PoissonPulses.event("great near field"), ratio=v),
+        "ratio",
+        0.8,
+        80,
+        "percent, give ratio=0.8",
+    ),
+    (
+        "period",
+        lambda v: ss.response_spectrum(MOTION, [0.1, v]),
+        "periods[1]",
+        2,
+        2000,
+        "ms, give periods[1]=2",
+    ),
+    (
+        "ground acceleration in g",
+        lambda v: MOTION.scaled_to(pga_g=v),
+        "pga_g",
+        0.4,
+        40,
+        "m/s^2, give pga_g=4.079",
+    ),
+    ("ground velocity", lambda v: MOTION.scaled_to(pgv=v), "pgv", 0.4, 40, "cm/s, give pgv=0.4"),
+    (
+        "Arias intensity",
+        lambda v: MOTION.scaled_to(arias=v),
+        "arias",
+        2.5,
+        250,
+        "cm/s, give arias=2.5",
+    ),
+    (
+        "ground velocity in cm/s",
+        lambda v: SaygiliRathje2008().predict(ky=0.1, pga=0.5, pgv=v),
+        "pgv",
+        42,
+        0.42,
+        "m/s, give pgv=42",
+    ),
+]
+
+
+@pytest.mark.parametrize(("quantity", "make", "name", "plausible", "odd", "likely"), ARGUMENTS)
+def test_each_argument_has_a_plausible_range(quantity, make, name, plausible, odd, likely):
+    make(plausible)  # the suite turns warnings into errors
+    with pytest.warns(ss.PlausibilityWarning) as caught:
+        make(odd)
+    (text,) = (str(one.message) for one in caught)
+    assert name in text
+    assert likely in text
+    assert "is outside" in text
+    assert caught[0].filename == __file__
+    assert quantity in _plausible_ranges()
+
+
+def test_each_plausible_range_is_used():
+    tried = {quantity for quantity, *_ in ARGUMENTS}
+    of_records = {
+        name for name in _plausible_ranges() if name.endswith("of a record")
+    }  # test_records
+    assert tried | of_records == _plausible_ranges().keys()
+
+
 def test_values_in_use_never_warn():
     """The suite turns warnings into errors; these are the ranges of the field."""
     for mu in (0, 0.001, 0.02, 0.06, 0.3, 0.8, 1.2, 2.5, 1000):
@@ -91,9 +576,24 @@ def test_values_in_use_never_warn():
         ss.Slider(ss.Coulomb(mu=2), slope_degrees=degrees)
     for ratio in (0, 0.02, 0.3, 0.9):
         ss.Structure.shear_building(masses=[1], stiffnesses=[1], damping_ratio=ratio)
-        ss.FlexibleSlope(ky_g=ratio, height=50, shear_velocity=600, damping_ratio=ratio)
+        ss.FlexibleSlope(ky_g=min(ratio, 0.7), height=50, shear_velocity=600, damping_ratio=ratio)
     for level in (0.01, 2, 20, 500):  # levels are in m/s^2
         ss.Coulomb(slip_level=level)
+
+
+@pytest.mark.filterwarnings("default::stickslip.PlausibilityWarning")
+def test_the_command_names_the_likely_unit(tmp_path, capsys):
+    file = tmp_path / "a.txt"
+    np.savetxt(file, 9.81 * IN_G)
+    command = ["slide", str(file), "--dt", "0.02", "--units", "m/s^2", "--mu", "0.1"]
+    for options, likely in (
+        (["--stop-gap", "10", "--restitution", "0"], "Stops: gap = 10 m .* in cm, give gap=0.1"),
+        (["--law", "caster", "--reach", "120"], "--reach: reach = 120 m .* in mm, give reach=0.12"),
+        (["--period", "3000"], "Slider: period = 3000 s .* in ms, give period=3"),
+    ):
+        assert cli.main([*command, *options]) == 0
+        (line,) = (x for x in capsys.readouterr().err.splitlines() if "is outside" in x)
+        assert re.search(likely, line)
 
 
 def test_laws_tell_their_coefficients():

@@ -22,6 +22,8 @@ from stickslip.regressions import (
     YegianEtAl1991,
 )
 
+pytestmark = pytest.mark.filterwarnings("ignore:.*ky is outside the range")
+
 # Every form with arguments well within its range; ky comes on top.
 FORMS = [
     (AmbraseysMenu1988(), {"pga": 0.5}),
@@ -374,15 +376,15 @@ def test_both_polarities_have_the_same_measures(kobe):
 
 
 def test_velocities_in_meters_are_warned_of():
-    with pytest.warns(ss.PlausibilityWarning, match=r"pgv is in cm/s, got 0.42: is it in m/s\?"):
+    with pytest.warns(ss.PlausibilityWarning, match="pgv = 0.42 cm/s .* in m/s, give pgv=42"):
         SaygiliRathje2008().predict(ky=0.1, pga=0.5, pgv=0.42)
 
 
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        ({"ky": 0.1, "pga": 5.3 * 9.8}, r"pga is in g, got 51.94: is it in m/s\^2\?"),
-        ({"ky": 0.1, "Ia": 250.0}, r"Ia is in m/s, got 250: is it in cm/s\?"),
+        ({"ky": 0.1, "pga": 5.3 * 9.8}, r"pga = 51.94 g .* in m/s\^2, give pga=5\.296"),
+        ({"ky": 0.1, "Ia": 250.0}, r"Ia = 250 m/s .* in cm/s, give Ia=2\.5"),
     ],
 )
 def test_other_units_are_warned_of(given, words):
@@ -398,6 +400,34 @@ def test_an_argument_outside_the_range_is_warned_of():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         Jibson2007().predict(ky=0.1, pga=0.5, M=7.6)
+
+
+@pytest.mark.parametrize(
+    ("model", "more", "low", "high"),
+    [
+        (Jibson2007(), {}, 0.05, 0.4),
+        (SaygiliRathje2008(), {}, 0.05, 0.3),
+        (BrayTravasarou2007(), {"Ts": 0.3, "M": 7}, 0.02, 0.4),
+        (BrayMacedoTravasarou2018(), {"Ts": 0.3, "M": 7}, 0.01, 0.8),
+        (BrayMacedo2019(), {"Ts": 0.3, "M": 7}, 0.01, 0.8),
+    ],
+)
+def test_each_model_warns_where_its_range_is_left(kobe, model, more, low, high):
+    for ky in (0.9 * low, 1.1 * high):
+        words = rf"^{type(model).__name__}: ky is outside the range of the model, {low} to {high}"
+        with pytest.warns(RangeWarning, match=words) as caught:
+            model.of(kobe, ky=ky, **more)
+        assert [one.filename for one in caught] == [__file__]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        model.of(kobe, ky=[low, high], **more)
+
+
+def test_sigma_of_rathje_and_saygili_has_three_digits():
+    """As in OpenQuake's `rathje_saygili_2009`: 0.732 + 0.789 r - 0.539 r^2."""
+    sigma = RathjeSaygili2009().predict(ky=0.1, pga=[0.1, 0.2, 1], M=7).sigma
+    r = np.array([1, 0.5, 0.1])
+    assert sigma == pytest.approx(0.732 + 0.789 * r - 0.539 * r**2, rel=1e-12)
 
 
 def test_a_warning_names_the_line_of_the_caller(kobe):

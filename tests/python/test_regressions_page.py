@@ -14,6 +14,8 @@ WORDS = " ".join(TEXT.split())
 
 measured = measuring("measure_regressions")
 
+pytestmark = pytest.mark.filterwarnings("ignore:.*ky is outside the range")
+
 
 @pytest.fixture(scope="module")
 def referees(pyslammer_files):

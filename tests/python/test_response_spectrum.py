@@ -82,6 +82,7 @@ def test_resonance_has_its_closed_form():
     assert found == pytest.approx(3 / (2 * zeta), rel=(2 * math.pi / per_period) ** 2 / 6)
 
 
+@pytest.mark.filterwarnings("ignore:.* periods = 1e:stickslip.PlausibilityWarning")
 def test_short_periods_give_the_pga_and_long_ones_the_pgd():
     motion = ss.GroundMotion(np.sin(np.linspace(0, 6 * math.pi, 301)), dt=0.01)
     pga = motion.peak_acceleration

@@ -190,3 +190,18 @@ def test_the_floors_of_several_records_are_drawn_by_height() -> None:
         plotting.plot_floors([responses[0], ss.integrate(BEARING, responses[0].motion)])
     with pytest.raises(TypeError, match="an Ensemble or a list of StructureResponse, got int"):
         plotting.plot_floors(3)
+
+
+@pytest.mark.filterwarnings("ignore:GaussianExcitation. the spectrum is carried")
+def test_peaks_of_more_floors_than_the_structure_has_are_refused() -> None:
+    building = ss.Structure.shear_building(
+        masses=[1, 1], stiffnesses=[600, 500], damping_ratio=0.05
+    )
+    system = ss.EquipmentOnFloor(ss.Coulomb(mu=0.1), building, floor=2)
+    noise = ss.GaussianExcitation(ss.Spectrum.white(s0=0.01), dt=0.02, samples=64)
+    e = ss.run_ensemble(system, noise, members=4, seed=1)
+    state = dict(e.__getstate__())
+    assert len(state["floor_peaks"]) == 4 * (2 + 2 * 2)
+    state["floor_peaks"] = np.tile(state["floor_peaks"], 2)
+    with pytest.raises(ValueError, match="peaks of floors must be those of the structure"):
+        ss.Ensemble.__new__(ss.Ensemble).__setstate__(state)

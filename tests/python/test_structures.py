@@ -3,6 +3,7 @@
 import copy
 import json
 import pickle
+import re
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -292,6 +293,7 @@ def test_a_yield_acceleration_that_falls_with_the_distance() -> None:
     assert e.configuration["slider"]["law"] == "Degrading"
 
 
+@pytest.mark.filterwarnings("ignore:.*base_mass over:stickslip.PlausibilityWarning")
 def test_a_structure_that_is_too_fast_for_the_time_step() -> None:
     light = ss.IsolatedStructure(ss.Coulomb(slip_level=1), BUILDING, base_mass=1e-12)
     with pytest.raises(
@@ -473,3 +475,197 @@ def test_tables_of_a_structure() -> None:
     assert "largest drift" in r._repr_html_()
     modes = ss.integrate(ss.IsolatedStructure(ss.Coulomb(slip_level=1), ONE), QUAKE)
     assert "floor" not in modes.to_xarray().coords and "drift" not in modes._repr_html_()
+
+
+# ---- equipment on a structure that is known by some of its modes
+
+W, Z = [5.0, 14.0], [0.03, 0.04]
+SHAPES = np.array([[0.4, 0.7], [0.9, 0.3], [1.3, -0.4]])
+FRACTIONS = [0.6, 0.2]
+
+
+def equipment_on(frequency: float | None) -> ss.EquipmentOnFloor:
+    """On the third floor; with a further mode, by which the rows of the shapes have the sum 1."""
+    fractions, shapes, w, z = FRACTIONS, SHAPES, W, Z
+    if frequency is not None:
+        fractions, w, z = [*FRACTIONS, 0.1], [*W, frequency], [*Z, 0.5]
+        shapes = np.column_stack([SHAPES, 1 - SHAPES.sum(axis=1)])
+    structure = ss.Structure.from_modes(
+        mass_fractions=fractions, frequencies=w, damping_ratios=z, shapes=shapes
+    )
+    return ss.EquipmentOnFloor(ss.Coulomb(slip_level=1.5), structure, floor=3, mass=0.1)
+
+
+def test_equipment_on_fewer_modes_than_floors_is_the_limit_of_stiff_ones() -> None:
+    quake = ss.GroundMotion(QUAKE.acceleration * np.sin(np.pi * m / 400), dt=0.1)
+    few = ss.integrate(equipment_on(None), quake)
+    assert few.slips > 20
+    e = few.energy
+    assert e.input == pytest.approx(e.dissipated + e.damped + e.kinetic + e.elastic, rel=1e-12)
+    errors = []
+    for frequency in (300.0, 1200.0):
+        all_modes = ss.integrate(equipment_on(frequency), quake)
+        errors.append(abs(all_modes.displacement - few.displacement).max() / few.peak)
+    # The stiff mode follows 2 zeta / w late: the difference is of first order.
+    assert errors[0] < 0.02
+    assert errors[1] < errors[0] / 2.5
+
+
+def test_the_shear_of_a_story_below_equipment_is_its_stiffness_times_its_drift() -> None:
+    k = np.array([600.0, 500.0, 400.0])
+    undamped = ss.Structure.shear_building(masses=[1, 1, 0.8], stiffnesses=k, damping_ratio=0)
+    for floor in (1, 2, 3):
+        system = ss.EquipmentOnFloor(ss.Coulomb(mu=0.1), undamped, floor=floor, mass=0.4)
+        r = ss.integrate(system, QUAKE)
+        assert r.slips > 10
+        scale = abs(r.floors.shear).max()
+        np.testing.assert_allclose(r.floors.shear, -k * r.floors.drift, atol=1e-11 * scale)
+
+
+def test_a_slip_during_settling_feels_how_the_surface_has_cooled() -> None:
+    rack = ss.Structure.from_modes(
+        mass_fractions=[0.9], frequencies=[3.0], damping_ratios=[0.004], shapes=[[1.0]]
+    )
+    law = ss.KumarFriction(
+        mu_ref=0.06, static_pressure=50e6, reference_pressure=50e6, contact_radius=0.2
+    )
+    system = ss.EquipmentOnFloor(law, rack, floor=1)
+    t = 0.02 * np.arange(700)
+    quake = ss.GroundMotion(1.2 * np.sin(3 * t) * np.sin(np.pi * t / t[-1]), dt=0.02)
+    r = ss.integrate(system, quake, settle=True)
+    late = r.events[(r.events["time"] > quake.duration) & (r.events["kind"] == "breakaway")]
+    assert len(late) > 3
+    # It cools by a tenth and more while it rests.
+    at_end, at_slip = np.interp([quake.duration, late["time"][-1]], r.time, r.temperature - 20)
+    assert at_slip < 0.9 * at_end
+    swept = ss.sweep([system], [quake], polarity="recorded", settle=True)
+    assert swept.residual[0, 0, 0] == pytest.approx(r.residual, abs=1e-12 * r.peak)
+    assert swept.events[0, 0, 0] == len(r.events) - 1  # without the end
+
+
+# ---- remarks
+
+TALL = ss.Structure.shear_building(
+    masses=[2e5, 2e5, 1.6e5], stiffnesses=[2.4e8, 2e8, 1.6e8], damping_ratio=0.03
+)
+PENDULUM = ss.FrictionPendulum(radius=2.2, mu=0.06)
+
+
+def test_an_isolated_building_has_the_remarks_of_a_rigid_one() -> None:
+    isolated = ss.IsolatedStructure(PENDULUM, TALL, base_mass=2e5)
+    quake = ss.GroundMotion(3 * np.sin(2 * np.arange(0, 20, 0.02)), dt=0.02)
+    r = ss.integrate(isolated, quake, settle=True)
+    assert r.peak > 0.2 * 2.2
+    assert r.remark == (
+        f"the displacement reaches {r.peak:.4g} m, beyond 0.2 of the radius of 2.2 m up to which a"
+        " pendulum is linear to 2 %"
+    )
+    assert r.remark in repr(r)
+    assert r.remark in r._repr_html_()
+    assert ss.integrate(isolated, 0.25 * quake, settle=True).remark == ""
+
+
+@pytest.mark.parametrize("kind", ["isolated", "equipment", "slope"])
+def test_accelerations_in_g_are_remarked(kind) -> None:
+    slides = ss.Coulomb(mu=0.3)
+    system = {
+        "isolated": ss.IsolatedStructure(slides, TALL, base_mass=2e5),
+        "equipment": ss.EquipmentOnFloor(slides, TALL, floor=2),
+        "slope": ss.FlexibleSlope(ky_g=0.3, height=50, shear_velocity=600, damping_ratio=0.1),
+    }[kind]
+    in_g = QUAKE.scaled(0.1)
+    assert ss.integrate(system, in_g.scaled(ss.STANDARD_GRAVITY)).slips > 0
+    r = ss.integrate(system, in_g)
+    assert r.time_sliding == 0
+    assert 'give units="g"' in r.remark
+    weak = QUAKE.scaled(1e-3)
+    assert ss.integrate(system, weak.scaled(ss.STANDARD_GRAVITY)).slips == 0
+    assert ss.integrate(system, weak).remark == ""
+
+
+def test_a_strained_soil_is_remarked() -> None:
+    for factor, remarked in ((0.02, False), (3, True)):
+        slope = ss.FlexibleSlope(
+            ky_g=0.02, height=50, shear_velocity=300, soil=ss.HyperbolicSoil(reference_strain=5e-4)
+        )
+        quake = factor * QUAKE
+        largest = slope.properties(quake)["strain"] / 0.65
+        assert (largest > 0.004) is remarked
+        remark = slope.coupled(quake).remark
+        assert (f"the soil is sheared by {100 * largest:.4g} %" in remark) is remarked
+
+
+# ---- both horizontal components of a floor
+
+
+def test_a_floor_has_both_components() -> None:
+    other = ss.Structure.shear_building(
+        masses=[1, 1, 0.8], stiffnesses=[300, 250, 200], damping_ratio=0.05
+    )
+    across = QUAKE.acceleration[::-1]
+    pair = ss.GroundMotion(QUAKE.acceleration, dt=0.1, transverse=across, name="A")
+    along, alone = BUILDING.floor_motions(QUAKE), ss.GroundMotion(across, dt=0.1)
+    for given, building in ((None, BUILDING), (other, other)):
+        floors = BUILDING.floor_motions(pair, parts=2, transverse=given)
+        expected = building.floor_motions(alone, parts=2)
+        for one, first, second in zip(floors, BUILDING.floor_motions(QUAKE, parts=2), expected):
+            np.testing.assert_array_equal(one.acceleration, first.acceleration)
+            np.testing.assert_array_equal(one.transverse, second.acceleration)
+    assert all(one.transverse is None for one in along)
+    floors = BUILDING.floor_motions(pair)
+    assert floors.floor.tolist() == [1, 2, 3]
+    assert floors[2].name == "A floor 3"  # the suite counts from 0
+    # A table on springs without friction moves in each direction as on one axis.
+    free = {"law": ss.Coulomb(slip_level=0), "natural_frequency": 3, "damping": 0.5}
+    r = ss.integrate(ss.PlanarSlider(**free), floors[2])
+    for i, motion in enumerate((along[2], BUILDING.floor_motions(alone)[2])):
+        single = ss.integrate(ss.Slider(**free), motion)
+        error = abs(r.displacement[:, i] - single.displacement).max()
+        assert error < 1e-10 * single.peak
+    assert ss.integrate(ss.PlanarSlider(ss.Coulomb(mu=0.1)), floors[2]).peak > 0
+    remark = ss.integrate(EQUIPMENT, pair).remark
+    assert (
+        remark == "the transverse component does not act; floor_motions has both for a PlanarSlider"
+    )
+    assert ss.integrate(EQUIPMENT, QUAKE).remark == ""
+    with pytest.raises(ValueError, match="must have 3 floors, got 1"):
+        BUILDING.floor_motions(
+            pair,
+            transverse=ss.Structure.shear_building(masses=[1], stiffnesses=[9], damping_ratio=0),
+        )
+    with pytest.raises(ValueError, match="needs a motion with a transverse component"):
+        BUILDING.floor_motions(QUAKE, transverse=other)
+
+
+# ---- many modes, and motions that do not end
+
+
+def test_the_fastest_rate_of_many_modes_is_found_without_the_others() -> None:
+    # On a base without friction the base mass m0 joins the building as one more floor: a chain of
+    # masses, whose fastest mode has w^2 = the largest eigenvalue of its matrices.
+    n = 120
+    building = ss.Structure.shear_building(
+        masses=np.ones(n), stiffnesses=1e4 * np.ones(n), damping_ratio=0
+    )
+    chain = np.diag(np.r_[1.0, 2 * np.ones(n - 1), 1]) - np.eye(n + 1, k=1) - np.eye(n + 1, k=-1)
+    mass = np.r_[0.2, np.ones(n)]
+    largest = 100 * np.sqrt(np.linalg.eigvalsh(chain / np.sqrt(np.outer(mass, mass))).max())
+    quake = ss.GroundMotion([0.0, 1.0, 0.0], dt=2e4 / largest)
+    with pytest.raises(ValueError, match=r"([\d.e+]+) rad/s, times") as caught:
+        ss.integrate(ss.IsolatedStructure(ss.Coulomb(mu=0.1), building, base_mass=0.2), quake)
+    found = re.search(r"([\d.e+]+) rad/s, times", str(caught.value))
+    assert found is not None
+    assert float(found[1]) == pytest.approx(largest, rel=1e-3)
+
+
+@pytest.mark.parametrize("method", ["coupled", "decoupled"])
+@pytest.mark.parametrize("level", [0.0, 1e-300])
+def test_what_cannot_settle_says_so_at_once(method, level) -> None:
+    slope = ss.FlexibleSlope(
+        ky_g=level, height=50, shear_velocity=600, damping_ratio=0.05, method=method
+    )
+    with pytest.raises(ss.ConvergenceError, match="does not come to rest"):
+        ss.integrate(slope, QUAKE, settle=True)
+    with pytest.warns(RuntimeWarning, match="2 of 2 combinations failed"):
+        table = ss.sweep([slope], [QUAKE], settle=True)
+    assert "does not come to rest" in table.failures[0].message

@@ -172,6 +172,66 @@ def test_levels_that_no_factor_reaches_are_refused():
             ss.Suite([*MOTIONS, quiet]).stripes(**{measure: [1]})
 
 
+def scaled_pairs():
+    rng = np.random.default_rng(4)
+    made = []
+    for i in range(5):
+        smooth = np.ones(3 + 4 * i)
+        a, b = (np.convolve(rng.standard_normal(1500), smooth, "same") for _ in range(2))
+        made.append(ss.GroundMotion(a, dt=0.02, transverse=0.7 * b, name=f"pair {i}"))
+    return ss.Suite(made)
+
+
+def measured_spectrum(motion, periods, directions):
+    """SRSS and RotD100 from components that are rotated here."""
+    axes = {"srss": (0, 90), "rotd100": range(180), "rotd50": range(180)}[directions]
+    each = [ss.response_spectrum(motion.rotated(float(a)), periods, 0.05).values for a in axes]
+    if directions == "srss":
+        return np.sqrt(np.square(each).sum(axis=0))
+    return np.median(each, axis=0) if directions == "rotd50" else np.max(each, axis=0)
+
+
+@pytest.mark.parametrize("directions", ["srss", "rotd100", "rotd50"])
+def test_pairs_meet_a_target_over_a_range_of_periods(directions):
+    pairs, periods = scaled_pairs(), np.array([0.1, 0.5, 1.0, 4.0])
+    target = np.array([8.0, 8.0, 4.0, 1.0])  # a straight line in logarithms from 0.5 s on
+    more = {"spectrum": (periods, target), "period_range": (0.6, 2.5), "directions": directions}
+    fitted = pairs.scaled_to(**more)
+    checked = np.union1d(np.geomspace(0.6, 2.5, 51), [1.0])
+    wanted = 4 / checked
+    spectra = np.array([measured_spectrum(m, checked, directions) for m in fitted])
+    # Each pair is fitted: the mean of ln(target / Sa) is zero.
+    assert np.log(wanted / spectra).mean(axis=1) == pytest.approx(np.zeros(5), abs=1e-12)
+    assert (spectra.mean(axis=0) / wanted).min() < 1.3
+    met = pairs.scaled_to(**more, at_least=1.3)
+    ratio = np.mean([measured_spectrum(m, checked, directions) for m in met], axis=0) / wanted
+    assert ratio.min() == pytest.approx(1.3, rel=1e-12)
+    # One factor for both components, and one more for all pairs.
+    more_factor = []
+    for pair, one, two in zip(pairs, fitted, met):
+        factor = one.peak_acceleration / pair.peak_acceleration
+        assert one.transverse == pytest.approx(factor * pair.transverse, rel=1e-12)
+        more_factor.append(two.peak_acceleration / one.peak_acceleration)
+    assert more_factor == pytest.approx([more_factor[0]] * 5, rel=1e-12)
+    assert pairs.scaled_to(**more, at_least=0.1) == fitted
+
+
+def test_ranges_that_a_target_does_not_have_are_refused():
+    pairs, target = scaled_pairs(), ([0.5, 1.0], [2.0, 1.0])
+    for bad, why in (
+        ({"period_range": (0.4, 0.9)}, "must lie within the periods of the target, got 0.4 to 0.9"),
+        ({"period_range": (0.9, 0.6)}, r"two periods, positive and increasing, got \(0.9, 0.6\)"),
+        ({"at_least": 0}, "at_least must be positive and finite, got 0"),
+        ({"directions": "rotd00"}, "'rotd100' or 'srss' for spectrum, got 'rotd00'"),
+    ):
+        with pytest.raises(ValueError, match=f"Suite.scaled_to: .*{why}"):
+            pairs.scaled_to(spectrum=target, **bad)
+    with pytest.raises(ValueError, match="at_least goes with spectrum, got it with pga_g"):
+        pairs.scaled_to(pga_g=0.4, at_least=0.9)
+    with pytest.raises(ValueError, match="'rotd50' or 'rotd100' for pga_g, got 'srss'"):
+        pairs.scaled_to(pga_g=0.4, directions="srss")
+
+
 def test_duplicates_are_found_whatever_their_names():
     again = ss.GroundMotion(MOTIONS[1].acceleration, dt=0.02, name="other name")
     other_step = ss.GroundMotion(MOTIONS[1].acceleration, dt=0.01)

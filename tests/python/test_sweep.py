@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 import stickslip as ss
 from clusters import losing_a_worker
+from stickslip import cli
 
 RNG = np.random.default_rng(20)
 
@@ -666,3 +667,33 @@ def test_a_suite_of_recorded_pairs_in_the_plane(agency_files):
     ratio = (table.peak / np.maximum(axis.peak, across.peak))[..., 0]
     assert [ratio.min(), ratio.max()] == pytest.approx([0.79, 4.37], abs=0.005)
     assert np.median(ratio, axis=1) == pytest.approx([1.17, 1.19, 1.57], abs=0.005)
+
+
+def test_pendulums_beyond_their_linear_range_are_remarked_once(tmp_path):
+    quake = ss.GroundMotion(3 * np.sin(2 * np.arange(0, 20, 0.02)), dt=0.02)
+    sliders = ss.grid(ss.FrictionPendulum, radius=[0.5, 2.0, 15.0], mu=[0.03])
+    table = ss.sweep(sliders, quake, polarity="recorded")
+    beyond = table.peak[:, 0, 0] > 0.2 * np.array([0.5, 2.0, 15.0])
+    assert 0 < beyond.sum() < 3
+    peaks = np.where(beyond, table.peak[:, 0, 0], 0)
+    worst = ss.integrate(sliders[peaks.argmax()], quake)
+    assert (
+        table.remark == f"{beyond.sum()} of 3 sliders: as slider {peaks.argmax()}, {worst.remark}"
+    )
+    assert table.remark in repr(table)
+    table.save(tmp_path / "t.h5")
+    assert ss.SweepTable.open(tmp_path / "t.h5").remark == table.remark
+    assert ss.SweepTable.from_json(table.to_json()) == table
+    assert ss.sweep(sliders[2], quake).remark == ""
+    both = ss.GroundMotion(quake.acceleration, dt=0.02, transverse=quake.acceleration)
+    assert "beyond 0.2" in ss.sweep(ss.PlanarSlider(sliders[1]), both).remark
+
+
+def test_the_command_says_once_that_pendulums_go_too_far(tmp_path, capsys):
+    file = tmp_path / "a.txt"
+    np.savetxt(file, 3 * np.sin(2 * np.arange(0, 20, 0.02)) * np.hanning(1000))
+    command = ["sweep", str(file), "--dt", "0.02", "--units", "m/s^2", "--law", "pendulum"]
+    command += ["--radii", "0.1", "0.6", "0.6", "--mu", "0.01", "0.04", "0.08"]
+    assert cli.main([*command, "--capacities", "0.1", "0.5", "0.5"]) == 0
+    lines = [x for x in capsys.readouterr().err.splitlines() if "linear to 2 %" in x]
+    assert len(lines) == 1

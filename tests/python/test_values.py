@@ -55,9 +55,13 @@ CARRIED = [
 RARE = ss.PoissonPulses(rate=0.01, half_width=1, sigma=2, duration=100)
 
 STRIPES = ss.sweep(
-    ss.Coulomb(mu=0.2), ss.sample_records().stripes(pga_g=[0.2, 0.4, 0.8]), settle=True
+    ss.Coulomb(mu=0.2),
+    ss.sample_records().stripes(pga_g=[0.1, 0.2, 0.4, 0.8, 1.6, 3.2]),
+    settle=True,
 )
-CURVES = [ss.Fragility.fit(STRIPES, im="pga_g", thresholds=t) for t in (0.05, [0.05, 0.1])]
+CURVES = [
+    ss.Fragility.fit(STRIPES, im="pga_g", thresholds=t, separate=True) for t in (0.05, [0.05, 0.1])
+]
 HAZARD = ss.Hazard([0.01, 0.1, 1, 10], [1, 1e-2, 1e-4, 1e-7], name="pga_g", unit="g")
 
 BUILDING = ss.Structure.shear_building(masses=[2], stiffnesses=[30], damping_ratio=0.05)

@@ -110,6 +110,7 @@ def texts(figure):
     return "".join(t.get_text() for t in figure.findobj(match=lambda a: hasattr(a, "get_text")))
 
 
+@pytest.mark.filterwarnings("ignore:.* natural_frequency = :stickslip.PlausibilityWarning")
 def test_what_it_cannot_be_or_do_is_refused():
     for damping, wn in ((-1, 0), (NAN, 0), (INF, 0), (1, -1), (1, NAN), (1, 1e200)):
         with pytest.raises(ValueError, match="Slider"):

@@ -31,6 +31,27 @@ struct PendulumLoop {
   std::vector<std::size_t> surface_stops;         ///< the same of each surface
 };
 
+namespace detail {
+
+/// Whether an element is at its stop in a direction, up to the round-off of its motion, by which it may miss the
+/// memory's flag.
+inline bool at_stop(const MultiPendulum& law, const PendulumMemory& memory, std::size_t k,
+                    Direction direction) noexcept {
+  const double most = law.elements()[k].capacity;
+  return most - sign(direction) * law.displacement(memory, static_cast<int>(k)) <= 0x1p-40 * most;
+}
+
+/// The elements of those that move which come to their stops between two places, one bit each.
+inline unsigned arrivals(const MultiPendulum& law, const PendulumMemory& from, const PendulumMemory& to,
+                         unsigned moving, Direction direction) noexcept {
+  unsigned found = 0;
+  for (std::size_t k = 0; k < law.elements().size(); ++k)
+    if ((moving >> k & 1) && at_stop(law, to, k, direction) && !at_stop(law, from, k, direction)) found |= 1U << k;
+  return found;
+}
+
+}  // namespace detail
+
 /// Impose a displacement on a bearing that starts at its center.
 /// @param path  displacements, one after the other [m]: finite, within the capacity
 /// @throws std::invalid_argument naming the value
@@ -69,11 +90,11 @@ inline PendulumLoop trace(const MultiPendulum& law, std::span<const double> path
         const unsigned begin = moving & ~moved;
         moved = moving;
         const double force = law.force_after(state.pendulum, direction, way);
+        const PendulumMemory before_it = state.pendulum;
         law.slide(state, way);
         state.displacement += sign(direction) * way;
         left -= way;
-        const PendulumMemory& now = state.pendulum;
-        const unsigned stops = (unsigned{now.at_forward} | unsigned{now.at_backward}) & moving;
+        const unsigned stops = detail::arrivals(law, before_it, state.pendulum, moving, direction);
         for (std::size_t k = 0; k < count; ++k) {
           const double part = law.share(moving, static_cast<int>(k)) * way;
           if (!(part > 0)) continue;

@@ -3,10 +3,12 @@
 
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/friction/multi_pendulum.hpp"
+#include "stickslip/friction/pendulum_loop.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/trajectory.hpp"
@@ -43,6 +45,7 @@ class ElementReader final : public TrajectoryReader {
   }
 
   void arc(const Arc& arc) override {
+    share_landing(arc.start.velocity);
     if (sample_ == 0) {
       last_ = arc.start;
       keep();
@@ -60,8 +63,7 @@ class ElementReader final : public TrajectoryReader {
         equal(first, 1) && equal(last, 1) ? arc.distance : numerics::gauss_integral<10>(0, arc.duration, [&](double t) {
           return arc.weight(t) * std::abs(arc.at(t).velocity);
         });
-    const PendulumMemory& now = last_.pendulum;
-    const unsigned stops = (unsigned{now.at_forward} | unsigned{now.at_backward}) & moving;
+    const unsigned stops = arrivals(law_, arc.start.pendulum, last_.pendulum, moving, direction);
     for (std::size_t k = 0; k < motion_.peak.size(); ++k) {
       const int element = static_cast<int>(k);
       const double part = law_.share(moving, element);
@@ -74,7 +76,9 @@ class ElementReader final : public TrajectoryReader {
     }
     keep();
   }
-  void event(EventKind kind, double, const State&, const Load&) override {
+  void event(EventKind kind, double, const State& state, const Load&) override {
+    share_landing(state.velocity);
+    if (kind == EventKind::landing && state.mode != Mode::stuck) landed_ = state;
     if (kind != EventKind::liftoff && kind != EventKind::landing) moving_ = 0;
   }
 
@@ -85,6 +89,22 @@ class ElementReader final : public TrajectoryReader {
 
  private:
   std::size_t samples() const { return motion_.displacement.front().size(); }
+
+  // The impulse of a landing slows the slider down: friction in the elements that move.
+  void share_landing(double velocity) {
+    if (!landed_) return;
+    const State& before = *landed_;
+    const double lost = (before.velocity * before.velocity - velocity * velocity) / 2;
+    const unsigned moving = law_.moving(before.pendulum, direction_of(before.mode));
+    double whole = 0;
+    for (std::size_t k = 0; k < motion_.peak.size(); ++k) whole += friction(moving, k);
+    for (std::size_t k = 0; k < motion_.peak.size() && whole > 0; ++k)
+      motion_.dissipated[k] += lost * (friction(moving, k) / whole);
+    landed_.reset();
+  }
+  double friction(unsigned moving, std::size_t k) const {
+    return law_.share(moving, static_cast<int>(k)) * law_.elements()[k].mu;
+  }
 
   void store(const State& state) {
     const std::vector<double> elements = law_.displacements(state.pendulum), surfaces = law_.surfaces(elements);
@@ -106,7 +126,8 @@ class ElementReader final : public TrajectoryReader {
   const Trajectory& trajectory_;
   ElementMotion motion_;
   State last_;
-  unsigned moving_ = 0;  // the elements that move since the last event
+  std::optional<State> landed_{};  // before the impulse
+  unsigned moving_ = 0;            // the elements that move since the last event
   std::size_t sample_ = 0;
 };
 

@@ -1,6 +1,7 @@
 // The motions of the floors of a structure, as ground motions for what stands on them.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "stickslip/ground/ground_motion.hpp"
@@ -16,10 +17,14 @@ namespace stickslip {
 /// mass sees the exact motion: the difference falls with the square of the step, 1 / parts. They end with the ground
 /// motion.
 /// @param structure  with floors: `from_modes` needs shapes
+/// A transverse component acts on a building of its own, without torsion.
+/// @param transverse  the structure in the transverse direction, with as many floors; the same one if not given
 /// @param parts      equal parts of each segment, at least 1: the result has that many times more samples
 /// @return one motion per floor, the lowest first
-/// @throws std::invalid_argument  a structure without floors, or parts below 1
+/// @throws std::invalid_argument  a structure without floors, parts below 1, another number of floors, or a transverse
+///                                structure without such a component
 /// @throws std::overflow_error    accelerations above 1e100 m/s^2
-std::vector<GroundMotion> floor_motions(const Structure& structure, const GroundMotion& motion, int parts = 1);
+std::vector<GroundMotion> floor_motions(const Structure& structure, const GroundMotion& motion, int parts = 1,
+                                        const std::optional<Structure>& transverse = {});
 
 }  // namespace stickslip

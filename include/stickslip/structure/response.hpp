@@ -53,6 +53,7 @@ struct StructureResponse : Response {
   /// Points that draw the loops of force over displacement with straight lines between them: two where the force jumps.
   /// Empty unless StructureIntegrateOptions::loops.
   std::vector<InterfacePoint> loops;
+  double soil_strain = 0;             ///< effective, of an equivalent-linear FlexibleSlope
   double peak_base_acceleration = 0;  ///< over all time [m/s^2]
   double peak_base_shear = 0;         ///< largest sum of the inertia forces of the structure; unit as Floors::shear
   /// Smallest difference between the demand and a static level when the velocity became zero, per reference mass

@@ -469,6 +469,13 @@ str
     read back to the same double; NaN and infinity are null.)")
       .def("_repr_html_",
            [](const py::object& self) { return py::module_::import("stickslip._tables").attr("ensemble_html")(self); })
+      .def_property_readonly(
+          "remark",
+          [](const py::object& self) { return py::module_::import("stickslip._tables").attr("ensemble_remark")(self); },
+          R"(A sentence about limits of the result; empty if there are none (str).
+
+Gaussian motions without the line at zero frequency that their spectrum has: over their whole period the ground comes
+back, and displacements drift less than a theory of that spectrum predicts.)")
       .def("__repr__", &repr_of_ensemble)
       .def(
           "__eq__", [](const Ensemble& a, const Ensemble& b) { return a == b; }, py::is_operator())

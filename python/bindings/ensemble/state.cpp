@@ -105,6 +105,21 @@ py::dict state_of(const Ensemble& ensemble) {
   return state;
 }
 
+/// Floors of the first structure in a configuration; 0 if there is none.
+std::size_t floors_of(const py::object& configuration) {
+  if (py::isinstance<py::list>(configuration)) {
+    for (const py::handle one : configuration)
+      if (const std::size_t floors = floors_of(py::reinterpret_borrow<py::object>(one)); floors > 0) return floors;
+    return 0;
+  }
+  if (!py::isinstance<py::dict>(configuration)) return 0;
+  if (configuration.contains("flexible_slope")) return 1;
+  for (const char* const rows : {"mass", "shapes"})
+    if (configuration.contains(rows) && py::isinstance<py::list>(configuration[rows]))
+      return py::len(configuration[rows]);
+  return floors_of(py::list(configuration.attr("values")()));
+}
+
 Ensemble ensemble_of(const py::dict& state) {
   Ensemble::Parts parts;
   parts.configuration = state["configuration"].cast<Ensemble::Configuration>();
@@ -153,6 +168,11 @@ Ensemble ensemble_of(const py::dict& state) {
          "sliders in the plane, and only they, must have transverse residuals");
   const std::size_t numbers = peak.empty() ? 0 : floor_peaks.size() / peak.size();
   expect(floor_peaks.size() == numbers * peak.size(), "peaks of floors must be those of the members");
+  for (const auto& [name, value] : parts.configuration) {
+    if (numbers == 0 || name != "slider") continue;
+    const std::size_t floors = floors_of(py::module_::import("json").attr("loads")(value));
+    expect(floors == 0 || numbers == detail::floor_numbers(floors), "peaks of floors must be those of the structure");
+  }
   std::size_t from = 0;
   for (std::size_t i = 0; i < kept_block.size(); ++i) {
     expect(kept_size[i] <= peak.size() - from, "a block has more members than peaks");

@@ -151,6 +151,7 @@ of its motion counts with its state there (`Ensemble.airborne`); with `settle` i
 
 Theories and `compare` do not cover vertical motion.)");
   type.def(py::init([](const py::object& horizontal, const py::object& vertical, double ratio) {
+             check_unit("ratio of components", "WithVertical", "ratio", ratio);
              HeldWithVertical held{horizontal, vertical.is_none() ? axis_of(horizontal) : vertical, ratio};
              if (!excitation_of(horizontal) && !py::isinstance<HeldWithTransverse>(horizontal))
                refuse_type("WithVertical", "horizontal", "WithTransverse", horizontal);
@@ -250,6 +251,7 @@ True)");
                        const std::optional<std::string>& arrivals) {
              if (!excitation_of(horizontal) && !py::isinstance<HeldWithVertical>(horizontal))
                refuse_type("WithTransverse", "horizontal", "WithVertical", horizontal);
+             check_unit("ratio of components", "WithTransverse", "ratio", ratio);
              HeldWithTransverse held{horizontal, transverse.is_none() ? axis_of(horizontal) : transverse, ratio,
                                      coherence, arrivals.value_or("")};
              const Components components = *components_of(py::cast(held));

@@ -120,6 +120,8 @@ Thesis 5.3, 5.4, 5.6 with the errata to (5.6); Y. K. Lin, Probabilistic Theory o
       .def(py::init([](double rate, double half_width, double sigma, double duration, bool stationary_start,
                        const std::optional<Shape>& shape, std::optional<py::function> quantile,
                        std::optional<Envelope> envelope) {
+             check_unit("period", "PoissonPulses", "half_width", half_width);
+             check_unit("ground acceleration", "PoissonPulses", "sigma", sigma);
              return PoissonPulses(rate, half_width, sigma, duration,
                                   options_of(stationary_start, shape, std::move(quantile), std::move(envelope)));
            }),
@@ -164,6 +166,9 @@ ValueError
           [](double rms_acceleration, double center_frequency_hz, double duration, double overlap,
              bool stationary_start, const std::optional<Shape>& shape, std::optional<py::function> quantile,
              std::optional<Envelope> envelope) {
+            const std::string who = "PoissonPulses.from_earthquake";
+            check_unit("ground acceleration", who, "rms_acceleration", rms_acceleration);
+            check_unit("frequency in Hz", who, "center_frequency_hz", center_frequency_hz);
             return PoissonPulses::from_earthquake(
                 rms_acceleration, center_frequency_hz, duration, overlap,
                 options_of(stationary_start, shape, std::move(quantile), std::move(envelope)));

@@ -101,6 +101,12 @@ std::string repr_of_spectrum(const Spectrum& spectrum) {
 }  // namespace
 
 void bind_spectrum(py::module_& m) {
+  const auto check = [](const char* of, double s0, double frequency = 0, double damping = 0) {
+    const std::string who = std::string("Spectrum.") + of;
+    check_unit("spectral density", who, "s0", s0);
+    check_unit("angular frequency", who, "frequency", frequency);
+    check_unit("damping ratio of one mode", who, "damping", damping);
+  };
   py::class_<Spectrum>(m, "Spectrum", R"(The two-sided spectral density of a stationary ground acceleration.
 
 S(omega) [m^2/s^3], omega in rad/s. The integral over the whole line is the variance; S(-omega) = S(omega); white noise
@@ -112,14 +118,26 @@ raises ValueError for a value out of range. Spectra are immutable; a call return
     s = Spectrum.band_pass(s0=1.0, low=2.0, high=4.0)
     s([1.0, 3.0])  # 0 and 1
     s.variance  # 4.0: both sides count)")
-      .def_static("white", &Spectrum::white, py::kw_only(), py::arg("s0"), R"(White noise: S = s0 everywhere.
+      .def_static(
+          "white",
+          [check](double s0) {
+            check("white", s0);
+            return Spectrum::white(s0);
+          },
+          py::kw_only(), py::arg("s0"), R"(White noise: S = s0 everywhere.
 
 Parameters
 ----------
 s0 : float
     [m^2/s^3], positive and finite.)")
-      .def_static("band_pass", &Spectrum::band_pass, py::kw_only(), py::arg("s0"), py::arg("low"), py::arg("high"),
-                  R"(Ideal band-pass: S = s0 for low <= |omega| <= high, thesis (4.24).
+      .def_static(
+          "band_pass",
+          [check](double s0, double low, double high) {
+            check("band_pass", s0);
+            return Spectrum::band_pass(s0, low, high);
+          },
+          py::kw_only(), py::arg("s0"), py::arg("low"), py::arg("high"),
+          R"(Ideal band-pass: S = s0 for low <= |omega| <= high, thesis (4.24).
 
 Parameters
 ----------
@@ -127,8 +145,14 @@ s0 : float
     [m^2/s^3], positive and finite.
 low, high : float
     [rad/s], 0 <= low < high, finite.)")
-      .def_static("kanai_tajimi", &Spectrum::kanai_tajimi, py::kw_only(), py::arg("s0"), py::arg("frequency"),
-                  py::arg("damping"), R"(White noise filtered by a soil layer with one mode, at the surface.
+      .def_static(
+          "kanai_tajimi",
+          [check](double s0, double frequency, double damping) {
+            check("kanai_tajimi", s0, frequency, damping);
+            return Spectrum::kanai_tajimi(s0, frequency, damping);
+          },
+          py::kw_only(), py::arg("s0"), py::arg("frequency"), py::arg("damping"),
+          R"(White noise filtered by a soil layer with one mode, at the surface.
 
 S = s0 (wg^4 + 4 z^2 wg^2 omega^2) / ((wg^2 - omega^2)^2 + 4 z^2 wg^2 omega^2). S(0) = s0, so that ground velocity
 and displacement grow without bound; see `clough_penzien`.
@@ -145,9 +169,17 @@ damping : float
 References
 ----------
 K. Kanai, Bull. Earthq. Res. Inst. 35 (1957), 309-325; H. Tajimi, 2nd WCEE (1960), 781-797.)")
-      .def_static("clough_penzien", &Spectrum::clough_penzien, py::kw_only(), py::arg("s0"), py::arg("frequency"),
-                  py::arg("damping"), py::arg("filter_frequency"), py::arg("filter_damping"),
-                  R"(Kanai-Tajimi spectrum with a second filter that removes low frequencies.
+      .def_static(
+          "clough_penzien",
+          [check](double s0, double frequency, double damping, double filter_frequency, double filter_damping) {
+            check("clough_penzien", s0, frequency, damping);
+            check_unit("angular frequency", "Spectrum.clough_penzien", "filter_frequency", filter_frequency);
+            check_unit("damping ratio of one mode", "Spectrum.clough_penzien", "filter_damping", filter_damping);
+            return Spectrum::clough_penzien(s0, frequency, damping, filter_frequency, filter_damping);
+          },
+          py::kw_only(), py::arg("s0"), py::arg("frequency"), py::arg("damping"), py::arg("filter_frequency"),
+          py::arg("filter_damping"),
+          R"(Kanai-Tajimi spectrum with a second filter that removes low frequencies.
 
 S = S_KT omega^4 / ((wf^2 - omega^2)^2 + 4 zf^2 wf^2 omega^2).
 

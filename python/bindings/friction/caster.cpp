@@ -40,6 +40,11 @@ ValueError
       .def_static(
           "from_geometry",
           [](double mu, double trail, double wheel_width, double rolling_mu, bool thesis) {
+            const std::string who = "Caster.from_geometry";
+            check_unit("coefficient of friction", who, "mu", mu);
+            check_unit("length", who, "trail", trail);
+            check_unit("length", who, "wheel_width", wheel_width);
+            check_unit("coefficient of friction", who, "rolling_mu", rolling_mu);
             return thesis ? Caster::from_geometry_thesis(mu, trail, wheel_width, rolling_mu)
                           : Caster::from_geometry(mu, trail, wheel_width, rolling_mu);
           },

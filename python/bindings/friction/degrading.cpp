@@ -32,15 +32,16 @@ std::vector<double> levels_of(const std::vector<Given>& arguments, const std::st
     given = &argument;
   }
   if (given == nullptr) throw std::invalid_argument("Degrading: give one of " + choice + ", got none");
-  const bool of_friction = std::string_view(given->name).starts_with("mu");
+  const std::string_view kind = given->name;
   const std::string name = std::string("Degrading: ") + given->name;
   std::vector<double> levels = to_vector(given->values, name, given->unit == 1 ? "m/s^2" : "");
   for (std::size_t i = 0; i < levels.size(); ++i) {
     detail::require(std::isfinite(levels[i]) && levels[i] >= 0,
                     name + "[" + std::to_string(i) + "] must be finite and at least 0", levels[i]);
-    if (of_friction && i == 0) check_coefficient("Degrading", given->name, levels[i]);
-    levels[i] *= given->unit;
   }
+  if (kind == "ky_g") check_unit("yield acceleration", "Degrading", given->name, levels);
+  if (kind.starts_with("mu")) check_unit("coefficient of friction", "Degrading", given->name, levels);
+  for (double& level : levels) level *= given->unit;
   return levels;
 }
 
@@ -103,6 +104,7 @@ Examples
   type.def(py::init([](const py::object& distance, const py::object& mu, const py::object& ky_g,
                        const py::object& slip_level, const py::object& mu_backward, const py::object& backward) {
              std::vector<double> distances = to_vector(distance, "Degrading: distance", "m");
+             check_unit("distance slid", "Degrading", "distance", distances);
              const double g = standard_gravity;
              std::vector<double> levels = levels_of({{"mu", mu, g}, {"ky_g", ky_g, g}, {"slip_level", slip_level, 1}},
                                                     "mu, ky_g and slip_level");

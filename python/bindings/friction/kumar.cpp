@@ -123,12 +123,20 @@ Examples
 0.0601)");
   type.def(py::init([](double mu_ref, double static_pressure, double reference_pressure, double contact_radius,
                        double temperature, double rate, double diffusivity, double conductivity) {
-             check_coefficient("KumarFriction", "mu_ref", mu_ref);
-             check_pressure("KumarFriction", "static_pressure", static_pressure);
-             check_pressure("KumarFriction", "reference_pressure", reference_pressure);
-             check_rate("KumarFriction", rate);
-             return KumarFriction({mu_ref, static_pressure, reference_pressure, contact_radius, temperature, rate,
-                                   diffusivity, conductivity});
+             const KumarFriction made({mu_ref, static_pressure, reference_pressure, contact_radius, temperature, rate,
+                                       diffusivity, conductivity});
+             const auto check = [](const char* quantity, const char* name, double value) {
+               check_unit(quantity, "KumarFriction", name, value);
+             };
+             check("coefficient of friction", "mu_ref", mu_ref);
+             check("pressure", "static_pressure", static_pressure);
+             check("pressure", "reference_pressure", reference_pressure);
+             check("length", "contact_radius", contact_radius);
+             check("temperature", "temperature", temperature);
+             check("rate", "rate", rate);
+             check("diffusivity", "diffusivity", diffusivity);
+             check("conductivity", "conductivity", conductivity);
+             return made;
            }),
            py::kw_only(), py::arg("mu_ref"), py::arg("static_pressure"), py::arg("reference_pressure"),
            py::arg("contact_radius"), py::arg("temperature") = 20.0, py::arg("rate") = 100.0,

@@ -24,10 +24,11 @@ std::vector<double> capacities_from(const py::object& capacities, std::size_t co
 MultiPendulum bearing_from(const std::string& who, const py::object& radii, const py::object& mu,
                            const py::object& capacities, double restitution, bool nested) {
   std::vector<double> of_radii = to_vector(radii, who + ": radii", "m"), of_mu = to_vector(mu, who + ": mu");
-  for (const double one : of_mu) check_coefficient(who, "mu", one);
-  const std::size_t count = of_radii.size();
-  return MultiPendulum(std::move(of_radii), std::move(of_mu), capacities_from(capacities, count, who), restitution,
-                       nested);
+  std::vector<double> of_capacities = capacities_from(capacities, of_radii.size(), who);
+  check_unit("radius", who, "radii", of_radii);
+  check_unit("coefficient of friction", who, "mu", of_mu);
+  check_unit("length", who, "capacities", of_capacities);
+  return MultiPendulum(std::move(of_radii), std::move(of_mu), std::move(of_capacities), restitution, nested);
 }
 
 /// A bearing of a fixed number of surfaces.

@@ -26,7 +26,7 @@ Pair levels_of(const std::optional<Level>& mu, const std::optional<Level>& level
   if (!mu) return pair;
   for (const double value : {pair.first, pair.second})
     detail::require(value >= 0, std::string("StaticKinetic: ") + mu_name + " must be at least 0", value);
-  check_coefficient("StaticKinetic", mu_name, pair.first);
+  check_unit("coefficient of friction", "StaticKinetic", mu_name, pair.first);
   return {pair.first * standard_gravity, pair.second * standard_gravity};
 }
 

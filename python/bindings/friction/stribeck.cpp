@@ -44,6 +44,7 @@ control of machines with friction, Automatica 30 (1994), 1083-1138.)");
                        std::optional<double> kinetic, double velocity, double exponent) {
              detail::require(exponent >= 1 && exponent <= 31 && exponent == std::floor(exponent),
                              "Stribeck: exponent must be a whole number from 1 to 31", exponent);
+             check_unit("sliding velocity", "Stribeck", "velocity", velocity);
              return Stribeck(slip_level_of(mu_static, hold, "Stribeck", "mu_static", "static"),
                              slip_level_of(mu_kinetic, kinetic, "Stribeck", "mu_kinetic", "kinetic"), velocity,
                              static_cast<int>(exponent));

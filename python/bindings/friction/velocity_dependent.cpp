@@ -45,7 +45,7 @@ M. C. Constantinou, A. Mokha, A. Reinhorn, Teflon bearings in base isolation II:
 Engineering 116 (1990), 455-474.)");
   type.def(py::init([](std::optional<double> mu_slow, std::optional<double> mu_fast, std::optional<double> slow,
                        std::optional<double> fast, double rate) {
-             check_rate("VelocityDependent", rate);
+             check_unit("rate", "VelocityDependent", "rate", rate);
              return VelocityDependent(slip_level_of(mu_slow, slow, "VelocityDependent", "mu_slow", "slow"),
                                       slip_level_of(mu_fast, fast, "VelocityDependent", "mu_fast", "fast"), rate);
            }),

@@ -249,6 +249,12 @@ A negative factor reverses the horizontal components but not the vertical one, w
              std::optional<double> pgv, std::optional<double> sa_g, std::optional<double> period, double damping) {
             if (sa_g.has_value() != period.has_value())
               throw std::invalid_argument("GroundMotion: scaled_to needs sa_g and period together, got one of them");
+            const std::string who = "GroundMotion.scaled_to";
+            check_unit("ground acceleration in g", who, "pga_g", pga_g);
+            check_unit("ground acceleration in g", who, "sa_g", sa_g);
+            check_unit("ground velocity", who, "pgv", pgv);
+            check_unit("Arias intensity", who, "arias", arias);
+            check_unit("period", who, "period", period);
             if (pga_g) *pga_g *= standard_gravity;
             if (!sa_g) return scaled_to(motion, {pga_g, arias, pgv});
             if (pga_g || arias || pgv)

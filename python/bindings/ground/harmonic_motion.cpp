@@ -6,6 +6,8 @@ namespace stickslip::python {
 namespace {
 
 HarmonicMotion make_harmonic_motion(double amplitude, double omega, double duration, std::optional<double> dt) {
+  check_unit("ground acceleration", "HarmonicMotion", "amplitude", amplitude);
+  check_unit("angular frequency", "HarmonicMotion", "omega", omega);
   return dt ? HarmonicMotion(amplitude, omega, duration, *dt) : HarmonicMotion(amplitude, omega, duration);
 }
 

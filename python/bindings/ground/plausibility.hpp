@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <span>
 #include <string>
 
@@ -12,12 +11,6 @@
 
 namespace stickslip::python {
 
-/// Recorded peaks are between these; what is above 3 g is nearly always in other units. (The largest ever recorded is some
-/// 4 g.)
-inline constexpr double min_plausible_peak = 1e-5 * standard_gravity, max_plausible_peak = 3 * standard_gravity;
-/// Time steps and durations of records [s].
-inline constexpr double min_plausible_step = 0.0005, max_plausible_step = 0.1;
-inline constexpr double min_plausible_duration = 1, max_plausible_duration = 3600;
 /// A mean above this fraction of the peak is an offset: in processed records it is below 2e-4, and 0.01 g in a record
 /// of 0.6 g is 1.6e-2.
 inline constexpr double max_plausible_mean = 0.005;
@@ -41,41 +34,25 @@ inline void warn_if_implausible(const GroundMotion& motion, const std::string& w
                                 bool recorded = true) {
   if (motion.samples() < fewest_samples) return;
   const auto warn = [&](const std::string& what) {
-    const py::object type = py::module_::import("stickslip._core").attr("PlausibilityWarning");
-    const std::string text = who + (motion.name().empty() ? std::string() : " (" + motion.name() + ")") + ": " + what;
-    if (PyErr_WarnEx(type.ptr(), text.c_str(), depth) != 0) throw py::error_already_set();
-  };
-  const auto rounded = [](double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return std::string(text);
+    warn_of_unit(who + (motion.name().empty() ? "" : " (" + motion.name() + ")") + ": " + what, depth);
   };
   const double peak = motion.peak_acceleration(), duration = motion.duration();
   const double step = duration / static_cast<double>(motion.segments());
   if (!recorded && peak == 0) return;
-  constexpr double margin = 1e-9;  // for steps that are these limits
-  if (recorded && !(step >= min_plausible_step * (1 - margin) && step <= max_plausible_step * (1 + margin))) {
-    warn(
-        "the time step, " + rounded(step) +
-        " s, is not from 0.0005 to 0.1 s as in recorded earthquakes; check whether milliseconds or numbers of rows were"
-        " taken for seconds");
+  const auto odd = [&](const char* quantity, const char* name, double value) {
+    const std::string text = implausibility(quantity, name, value);
+    if (!text.empty()) warn(text);
+    return !text.empty();
+  };
+  if (recorded &&
+      (odd("time step of a record", "the time step", step) || odd("duration of a record", "the duration", duration)))
     return;
-  }
-  if (recorded && !(duration >= min_plausible_duration && duration <= max_plausible_duration)) {
-    warn("the duration, " + rounded(duration) +
-         " s, is not from 1 s to an hour as in recorded earthquakes; check the time step");
-    return;
-  }
-  if (!(peak >= min_plausible_peak && peak <= max_plausible_peak)) {
-    warn("the largest acceleration, " + rounded(peak) +
-         " m/s^2, is not from 0.0001 to 29.4 m/s^2 (1e-5 to 3 g) as in recorded earthquakes; check the units");
-    return;
-  }
+  if (odd("peak of a record", "the largest acceleration", peak)) return;
   const double velocity = ground_history(motion).velocity.back(), mean = velocity / motion.duration();
   if (std::abs(mean) > max_plausible_mean * peak &&
       (recorded || begins_and_ends_at_rest(motion.acceleration(), mean, peak)))
-    warn("the mean acceleration, " + rounded(mean) +
-         " m/s^2, is more than 0.5 % of the peak and leaves the ground moving at " + rounded(velocity) +
+    warn("the mean acceleration, " + digits(mean) +
+         " m/s^2, is more than 0.5 % of the peak and leaves the ground moving at " + digits(velocity) +
          " m/s; this is a baseline error, which .detrended() removes");
 }
 

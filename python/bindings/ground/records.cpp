@@ -101,7 +101,8 @@ py::object format_of(const py::bytes& content) {
 void bind_records(py::module_& m) {
   m.attr("PlausibilityWarning") = py::reinterpret_steal<py::object>(PyErr_NewExceptionWithDoc(
       "stickslip.PlausibilityWarning",
-      "Warning about an implausible record, probably in other units or with a baseline error.\n\n"
+      "Warning about an implausible argument or record, probably in other units or with a baseline error.\n\n"
+      "Constructors warn of values beyond the range of their quantity and name the likely unit. Beside that:\n"
       "`read_record`, `read_station`, `Suite.read` and `GroundMotion.from_obspy` warn if the time step is below "
       "0.0005\n"
       "or above 0.1 s, the duration below 1 s or above an hour, the maximum acceleration below 1e-5 or above 3 g, or\n"
@@ -131,6 +132,17 @@ void bind_records(py::module_& m) {
   m.def("_record_formats", &formats);
   m.def("_station_motion", &station, py::arg("components"), py::arg("orientations"), py::arg("along"),
         py::arg("common_length"));
+  m.def(
+      "_check_unit",
+      [](const std::string& quantity, const std::string& who, const std::string& name, const py::object& values,
+         int depth) { check_unit(quantity, who, name, to_vector_or_number(values, name), depth); },
+      py::arg("quantity"), py::arg("who"), py::arg("name"), py::arg("values"), py::arg("depth") = 2);
+  m.def("_plausible_ranges", [] {
+    py::dict all;
+    for (const PlausibleRange& range : plausible::ranges)
+      all[py::str(std::string(range.quantity))] = py::make_tuple(range.low, range.high);
+    return all;
+  });
   m.def("_warn_if_implausible", &warn_if_implausible, py::arg("motion"), py::arg("who"), py::arg("depth") = 1,
         py::arg("recorded") = true);
 

@@ -110,6 +110,7 @@ The values are nested lists of shape (D, P); every number reads back as the same
           return py::module_::import("stickslip.motions.intensity").attr("spectra")(motion, periods, damping, kind);
         auto all_periods = to_vector_or_number(periods, "response_spectrum: periods", "s");
         auto all_damping = to_vector_or_number(damping, "response_spectrum: damping", "");
+        check_unit("period", "response_spectrum", "periods", all_periods, 2);
         const SpectrumKind which = kind_of(kind);
         const auto answer = [&](const auto& accelerations, const auto&... impulses) {
           return py::cast([&] {

@@ -22,6 +22,13 @@ PlanarState advanced(const AnyPlanarSlider& slider, PlanarState state, double dt
   return state;
 }
 
+Vector2 finite_vector(const py::object& value, const std::string& name, const char* unit) {
+  const Vector2 v = to_vector2(value, name, unit);
+  detail::require(std::isfinite(v.axis), name + "[0] must be finite", v.axis, unit);
+  detail::require(std::isfinite(v.transverse), name + "[1] must be finite", v.transverse, unit);
+  return v;
+}
+
 template <auto member>
 auto vector_of() {
   return [](const PlanarState& state) { return array_of(state.*member); };
@@ -42,11 +49,18 @@ sliding_distance : float, optional
     Path length so far [m], at least 0; for laws that depend on it, such as `Degrading`.
 heat : SurfaceHeat, optional
     Heat left in the sliding surface, for laws that depend on its temperature: `KumarFriction`. Without it the surface
-    is cold.)")
+    is cold.
+
+Raises
+------
+ValueError
+    Naming an entry that is not finite, or a negative distance.)")
       .def(py::init([](const py::object& displacement, const py::object& velocity, double sliding_distance,
                        const std::optional<SurfaceHeat>& heat) {
-             PlanarState state = PlanarState::at(to_vector2(displacement, "PlanarState: displacement", "m"),
-                                                 to_vector2(velocity, "PlanarState: velocity", "m/s"));
+             PlanarState state = PlanarState::at(finite_vector(displacement, "PlanarState: displacement", "m"),
+                                                 finite_vector(velocity, "PlanarState: velocity", "m/s"));
+             detail::require(std::isfinite(sliding_distance) && sliding_distance >= 0,
+                             "PlanarState: sliding_distance must be finite and at least 0", sliding_distance, "m");
              state.sliding_distance = sliding_distance;
              if (heat) state.heat = *heat;
              return state;

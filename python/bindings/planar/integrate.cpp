@@ -20,10 +20,10 @@ PlanarResponseWithInputs integrate_planar(const AnyPlanarSlider& slider, const p
                                        check_for_interrupt,
                                        sliding_distance,
                                        heat.value_or(SurfaceHeat())};
-  PlanarResponse response = [&] {
+  PlanarResponse response = naming_cause(py::cast(slider), detail::description(options.velocity), [&] {
     const py::gil_scoped_release released;
     return integrate(slider, ground, options);
-  }();
+  });
   return {std::move(response), py::cast(slider), motion};
 }
 

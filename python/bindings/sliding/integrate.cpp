@@ -15,10 +15,10 @@ template <class M>
 ResponseWithInputs integrate_under(const AnySlider& slider, const py::object& motion, const IntegrateOptions& options) {
   const auto& ground = motion.cast<const M&>();
   Response storage = Storage::take();
-  Response response = [&] {
+  Response response = naming_cause(py::cast(slider), detail::shortest(options.velocity), [&] {
     const py::gil_scoped_release released;
     return integrate(slider, ground, options, std::move(storage));
-  }();
+  });
   return {std::move(response), py::cast(slider), motion};
 }
 
@@ -64,6 +64,16 @@ void bind_integrate(py::module_& m) {
         return first_remark(sliders, motions, Vector2{});
       },
       py::arg("sliders"), py::arg("motions"));
+  m.def(
+      "_linear_remark",
+      [](const py::object& slider, double peak) -> std::string {
+        if (py::isinstance<AnyPlanarSlider>(slider))
+          return pendulum_remark(mounting_of(slider.cast<const AnyPlanarSlider&>()), peak);
+        const auto found = slider_of(slider);
+        return found ? linear_remark(*found, peak) : "";
+      },
+      py::arg("slider"), py::arg("peak"),
+      "`Response.remark` on a pendulum that leaves its linear range; empty for anything else.");
   m.def("integrate", &integrate_any, py::arg("slider"), py::arg("motion"), py::kw_only(), py::arg("displacement") = 0.0,
         py::arg("velocity") = 0.0, py::arg("settle") = false, py::arg("contact") = "flight",
         py::arg("sliding_distance") = 0.0, py::arg("heat") = py::none(),

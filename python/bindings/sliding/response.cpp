@@ -97,9 +97,7 @@ std::string remark_of(const ResponseWithInputs& self) {
   const auto& any = self.slider.cast<const AnySlider&>();
   if (self.response.time_sliding == 0 && py::isinstance<GroundMotion>(self.motion))
     return units_remark(any, self.motion.cast<const GroundMotion&>(), self.response.displacement.front());
-  if (const auto* bearing = std::get_if<Slider<MultiPendulum>>(&any))
-    return angle_remark(bearing->law(), self.response.peak);
-  return pendulum_remark(mounting_of(any), self.response.peak);
+  return linear_remark(any, self.response.peak);
 }
 
 ElementMotion elements_of(const ResponseWithInputs& self) {

@@ -128,6 +128,12 @@ inline std::string angle_remark(const MultiPendulum& law, double peak) {
   return "a surface turns by " + digits(steepest) + " rad, beyond the 0.2 up to which a pendulum is linear to 2 %";
 }
 
+/// The remark on a slider of either kind.
+inline std::string linear_remark(const AnySlider& slider, double peak) {
+  if (const auto* bearing = std::get_if<Slider<MultiPendulum>>(&slider)) return angle_remark(bearing->law(), peak);
+  return pendulum_remark(mounting_of(slider), peak);
+}
+
 struct ResponseWithInputs {
   Response response;
   py::object slider;

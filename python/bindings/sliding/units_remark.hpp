@@ -4,7 +4,6 @@
 #include <string>
 
 #include "bindings.hpp"
-#include "friction/plausibility.hpp"
 
 namespace stickslip::python {
 
@@ -46,21 +45,26 @@ bool begins_to_slip(const PlanarSlider<Law>& slider, const GroundMotion& motion,
   return false;
 }
 
-/// The remark on a slider that did not slip; empty if it would not slip either if the accelerations were in g. Records
-/// are below 4 g.
+/// Records are below 4 g.
+inline constexpr double most_g = 4;
+
+/// The remark where nothing slips, but would if accelerations were in g.
+inline std::string in_g_remark(double peak) {
+  return "nothing slips: the peak ground acceleration is " + digits(peak) + " m/s^2 (" +
+         digits(peak / standard_gravity) + " g); if the accelerations are in g, give units=\"g\": at " + digits(peak) +
+         " g it slips";
+}
+
+/// The remark on a slider that did not slip; empty if it would not slip either if the accelerations were in g.
 /// @param peak   peak ground acceleration [m/s^2]
 /// @param place  where it rests
 template <class Sliders, class Place>
 std::string units_remark(const Sliders& slider, const GroundMotion& motion, double peak, Place place) {
-  constexpr double most_g = 4;
   if (!(peak > 0 && peak <= most_g)) return "";
   const GroundMotion in_g = motion.scaled(standard_gravity);
   const bool slips = std::visit(
       [&](const auto& one) { return !begins_to_slip(one, motion, place) && begins_to_slip(one, in_g, place); }, slider);
-  if (!slips) return "";
-  return "nothing slips: the peak ground acceleration is " + digits(peak) + " m/s^2 (" +
-         digits(peak / standard_gravity) + " g); if the accelerations are in g, give units=\"g\": at " + digits(peak) +
-         " g it slips";
+  return slips ? in_g_remark(peak) : "";
 }
 inline std::string units_remark(const AnySlider& slider, const GroundMotion& motion, double x = 0) {
   return units_remark(slider, motion, motion.peak_acceleration(), x);

@@ -17,12 +17,12 @@
 #include "in_python.hpp"
 #include "parts.hpp"
 #include "sliding/response.hpp"
+#include "sliding/units_remark.hpp"
 #include "stickslip/structure/equipment_on_floor.hpp"
 #include "stickslip/structure/flexible_slope.hpp"
 #include "stickslip/structure/floor_motions.hpp"
 #include "stickslip/structure/isolated_structure.hpp"
 #include "structure/from_inputs.hpp"
-#include "structure/plausibility.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -43,12 +43,21 @@ Structure structure_of_modes(const py::object& fractions, const py::object& freq
   return Structure::from_modes(f, w, z, matrix_from(shapes, "Structure.from_modes: shapes"));
 }
 
+double first_period(const Structure& s) {
+  const auto& w = s.modes().frequencies;  // in order
+  const auto first = std::ranges::upper_bound(w, 0.0);
+  return first == w.end() ? std::numeric_limits<double>::infinity() : 2 * std::numbers::pi / *first;
+}
+
+void check_first_period(const std::string& who, std::string_view quantity, const Structure& structure) {
+  check_unit(quantity, who, "the first period", first_period(structure));
+}
+
 Structure plausible_structure_of_modes(const py::object& fractions, const py::object& frequencies,
                                        const py::object& ratios, const py::object& shapes) {
   Structure structure = structure_of_modes(fractions, frequencies, ratios, shapes);
-  const auto& all = structure.modes().damping_ratios;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    check_damping_ratio("Structure.from_modes", "damping_ratios[" + std::to_string(i) + "]", all[i]);
+  check_unit("damping ratio", "Structure.from_modes", "damping_ratios", structure.modes().damping_ratios);
+  check_first_period("Structure.from_modes", "first period of modes", structure);
   return structure;
 }
 
@@ -68,15 +77,13 @@ Structure structure_from_inputs(const py::tuple& inputs) {
 }
 
 std::string description(const Structure& s) {
-  const auto& w = s.modes().frequencies;  // in order
-  const auto rigid = std::ranges::count(w, 0.0);
-  const double first = rigid < s.size() ? w[static_cast<std::size_t>(rigid)] : std::numeric_limits<double>::infinity();
+  const auto rigid = std::ranges::count(s.modes().frequencies, 0.0);
   const auto count = [](std::ptrdiff_t n, const char* what) {
     return std::to_string(n) + ' ' + what + (n == 1 ? "" : "s");
   };
   return "<Structure: " + (s.floors() > 0 ? count(s.floors(), "floor") + ", " : std::string()) +
          count(s.size(), "mode") + (rigid > 0 ? ", " + std::to_string(rigid) + " of them rigid" : std::string()) +
-         ", first period " + digits(2 * std::numbers::pi / first) + " s>";
+         ", first period " + digits(first_period(s)) + " s>";
 }
 
 const char* name_of(SlopeMethod method) { return method == SlopeMethod::coupled ? "coupled" : "decoupled"; }
@@ -153,6 +160,59 @@ Self integrate_structure(const py::object& system, const py::object& motion, dou
                                           .sliding_distance = sliding_distance,
                                           .heat = heat.value_or(SurfaceHeat())};
   return {integrate_with(system, motion, options), system, motion, options};
+}
+
+/// What slides.
+AnySlider interface_of(const py::object& system) {
+  if (py::isinstance<FlexibleSlope>(system)) {
+    const auto& slope = system.cast<const FlexibleSlope&>();
+    if (slope.degrading) return Slider(*slope.degrading, Mounting{.one_way = true});
+    return Slider(Coulomb(slope.ky_g * standard_gravity, never));
+  }
+  if (py::isinstance<EquipmentOnFloor>(system)) return system.cast<const EquipmentOnFloor&>().slider();
+  return system.cast<const IsolatedStructure&>().slider();
+}
+
+/// Whether the interface would begin to slide at a sample if the ground accelerations, and with them the demand on it,
+/// were in g.
+bool slips_in_g(const Self& self, const AnySlider& slider, const GroundMotion& motion) {
+  const Mounting& on = mounting_of(slider);
+  const detail::Bounds bounds{on.stops, on.one_way};
+  const double x = self.response.displacement.front(), pull = on.spring().under(1) * x;
+  const auto& demand = self.response.interface_demand;
+  return std::visit(
+      [&](const auto& one) {
+        for (std::size_t i = 0; i < std::min(demand.size(), motion.samples()); ++i) {
+          const double up = motion.has_vertical() ? motion.vertical()[i] : 0, weight = std::max(1 + up, 0.0);
+          const double q = (demand[i] + pull) * standard_gravity - pull;
+          const Direction direction = q < 0 ? Direction::backward : Direction::forward;
+          const double level =
+              bounds.bound(direction, x, hold(law_at(one.law(), State::at(x, 0), weight), x, direction));
+          if (std::abs(q) > detail::weigh(weight, level)) return true;
+        }
+        return false;
+      },
+      slider);
+}
+
+std::string remark_of(const Self& self) {
+  const AnySlider slider = interface_of(self.system);
+  const auto& motion = self.motion.cast<const GroundMotion&>();
+  const double ground = motion.peak_acceleration();
+  std::string all;
+  const auto add = [&](const std::string& one) { all += (all.empty() || one.empty() ? "" : "; ") + one; };
+  if (self.response.time_sliding > 0)
+    add(linear_remark(slider, self.response.peak));
+  else if (ground > 0 && ground <= most_g && slips_in_g(self, slider, motion))
+    add(in_g_remark(ground));
+  // The effective strain is 0.65 of the largest (Kaklamanos and others, Bull. Seism. Soc. Am. 103 (2013), 2609-2630).
+  constexpr double most_strain = 0.004;
+  if (const double strain = self.response.soil_strain / 0.65; strain > most_strain)
+    add("the soil is sheared by " + digits(100 * strain) +
+        " %, beyond the 0.4 % up to which equivalent-linear soil resembles nonlinear soil");
+  if (py::isinstance<EquipmentOnFloor>(self.system) && motion.has_transverse())
+    add("the transverse component does not act; floor_motions has both for a PlanarSlider");
+  return all;
 }
 
 /// The floors of a response.
@@ -245,8 +305,13 @@ Raises
 ValueError
     Naming the matrix, the entry or the eigenvalue.)",
       &inputs_of_structure, &structure_from_inputs)
-      .def(py::init(&structure_of_matrices), py::arg("mass"), py::arg("damping"), py::arg("stiffness"),
-           py::arg("influence") = py::none())
+      .def(py::init([](const py::object& mass, const py::object& damping, const py::object& stiffness,
+                       const py::object& influence) {
+             Structure structure = structure_of_matrices(mass, damping, stiffness, influence);
+             check_first_period("Structure", "first period of a building", structure);
+             return structure;
+           }),
+           py::arg("mass"), py::arg("damping"), py::arg("stiffness"), py::arg("influence") = py::none())
       .def_static(
           "shear_building",
           [](const py::object& masses, const py::object& stiffnesses, const std::optional<Rayleigh>& damping,
@@ -256,9 +321,11 @@ ValueError
             if (damping.has_value() == damping_ratio.has_value())
               throw std::invalid_argument("Structure.shear_building: give either damping or damping_ratio, got " +
                                           std::string(damping ? "both" : "neither"));
-            if (damping) return Structure::shear_building(mass, stiffness, *damping);
-            check_damping_ratio("Structure.shear_building", "damping_ratio", *damping_ratio);
-            return Structure::shear_building(mass, stiffness, *damping_ratio);
+            check_unit("damping ratio", "Structure.shear_building", "damping_ratio", damping_ratio);
+            Structure building = damping ? Structure::shear_building(mass, stiffness, *damping)
+                                         : Structure::shear_building(mass, stiffness, *damping_ratio);
+            check_first_period("Structure.shear_building", "first period of a building", building);
+            return building;
           },
           py::kw_only(), py::arg("masses"), py::arg("stiffnesses"), py::arg("damping") = py::none(),
           py::arg("damping_ratio") = py::none(),
@@ -341,10 +408,10 @@ Modes
     `to_dataframe` and a figure by `plot`.)")
       .def(
           "floor_motions",
-          [](const Structure& s, const GroundMotion& motion, int parts) {
+          [](const Structure& s, const GroundMotion& motion, int parts, const std::optional<Structure>& transverse) {
             const std::vector<GroundMotion> motions = [&] {
               const py::gil_scoped_release released;
-              return floor_motions(s, motion, parts);
+              return floor_motions(s, motion, parts, transverse);
             }();
             py::list each, floors;
             for (const GroundMotion& one : motions) {
@@ -354,7 +421,7 @@ Modes
             return py::module_::import("stickslip.motions.suite")
                 .attr("Suite")(each, py::dict(py::arg("floor") = floors));
           },
-          py::arg("motion"), py::kw_only(), py::arg("parts") = 1,
+          py::arg("motion"), py::kw_only(), py::arg("parts") = 1, py::arg("transverse") = py::none(),
           R"(The absolute accelerations of the floors, as ground motions for light sliders on them.
 
 One response of the structure, on the ground and without what stands on it, serves all sliders: `sweep` integrates many of
@@ -363,19 +430,25 @@ them on every floor. It starts from rest and ends with the ground motion.
 Parameters
 ----------
 motion : GroundMotion
-    Along the direction of the structure. A vertical component acts on the floors as on the ground.
+    Along the direction of the structure. A transverse component acts on the structure in the other direction; there is
+    no torsion. A vertical component acts on the floors as on the ground.
 parts : int, optional
     Equal parts of each segment, at least 1: the floor motions have that many times more samples.
+transverse : Structure, optional
+    The structure in the transverse direction, with as many floors; default: the same as along the axis.
 
 Returns
 -------
 Suite
     One motion per floor, the lowest first, named after the motion and the floor; `suite.floor` has their numbers.
+    Floors count from 1, the items of the suite from 0: `suite[2]` is floor 3. With both horizontal components if the
+    motion has them, as a `PlanarSlider` needs.
 
 Raises
 ------
 ValueError
-    A structure made by `from_modes` without shapes; parts below 1.
+    A structure made by `from_modes` without shapes; parts below 1; a transverse structure with another number of
+    floors, or for a motion without that component.
 OverflowError
     Accelerations above 1e100 m/s^2.
 
@@ -438,8 +511,17 @@ True)",
                                                         inputs[1].cast<const Structure&>(),
                                                         inputs[2].cast<std::optional<double>>());
                                       })
-      .def(py::init(isolated), py::arg("slider"), py::arg("structure"), py::kw_only(),
-           py::arg("base_mass") = py::none())
+      .def(py::init([isolated](const AnySlider& slider, const Structure& structure, std::optional<double> base_mass) {
+             IsolatedStructure made = isolated(slider, structure, base_mass);
+             double floors = 0;
+             for (std::ptrdiff_t i = 0; i < structure.mass().rows(); ++i) floors += structure.mass()(i, i);
+             if (base_mass)
+               check_unit("base mass over the mean mass of a floor", "IsolatedStructure",
+                          "base_mass over the mean mass of a floor",
+                          *base_mass * static_cast<double>(structure.floors()) / floors);
+             return made;
+           }),
+           py::arg("slider"), py::arg("structure"), py::kw_only(), py::arg("base_mass") = py::none())
       .def("rest", &IsolatedStructure::rest, "The `StructureState` at rest at x = 0, for `advance`.")
       .def_property_readonly("slider", &IsolatedStructure::slider, "The `Slider` of the interface.")
       .def_property_readonly("structure", &IsolatedStructure::structure, "The `Structure`.")
@@ -507,7 +589,11 @@ Parameters
 ----------
 reference_strain : float
     gr, at which the modulus is half of Gmax; positive and finite.)")
-      .def(py::init<double>(), py::kw_only(), py::arg("reference_strain"))
+      .def(py::init([](double reference_strain) {
+             check_unit("reference strain", "HyperbolicSoil", "reference_strain", reference_strain);
+             return HyperbolicSoil(reference_strain);
+           }),
+           py::kw_only(), py::arg("reference_strain"))
       .def_property_readonly("reference_strain", &HyperbolicSoil::reference_strain, "gr.")
       .def(
           "modulus_ratio",
@@ -610,8 +696,12 @@ True)")
                                  method_of(method),
                                  degrading ? std::optional(*degrading) : std::nullopt};
              check(slope);
-             check_yield_acceleration(slope.ky_g);
-             check_damping_ratio("FlexibleSlope", "damping_ratio", damping_ratio);
+             const std::string who = "FlexibleSlope";
+             check_unit("yield acceleration", who, "ky_g", slope.ky_g);
+             check_unit("first period of a slope", who, "the first period", 4 * height / shear_velocity);
+             check_unit("shear-wave velocity", who, "shear_velocity", shear_velocity);
+             check_unit("shear-wave velocity", who, "rock_velocity", rock_velocity);
+             check_unit("damping ratio", who, "damping_ratio", damping_ratio);
              return slope;
            }),
            py::kw_only(), py::arg("ky_g"), py::arg("height"), py::arg("shear_velocity"), py::arg("damping_ratio") = 0.0,
@@ -826,6 +916,12 @@ decoupled `FlexibleSlope`, it is that of the slider alone.)")
 Decisions are the ends of slips; infinite if there was none. If it is tiny, the response depends on round-off.)")
       .def_property_readonly("components", number<&StructureResponse::components>(),
                              "Components of the ground motion that acted, 'axis' or 'axis + vertical'.")
+      .def_property_readonly("remark", &remark_of,
+                             R"(Sentences about limits of the result; empty if there are none (str).
+
+A pendulum beyond 0.2 of its radius; an interface that never slips, but would if the ground accelerations were in g;
+equivalent-linear soil that is sheared by more than 0.4 %; equipment under a motion whose transverse component does not
+act.)")
       .def("__getattr__",
            [](const Self&, const std::string& name) -> py::object {
              throw py::attribute_error(name == "sensitivity"
@@ -882,8 +978,10 @@ str
     An object with the columns of `to_dataframe`, their units, the events, the results by name, and the peaks of the
     floors.)")
       .def("__repr__", [](const Self& r) {
+        const std::string remark = remark_of(r);
         return "<StructureResponse: peak " + digits(r.response.peak) + " m, residual " + digits(r.response.residual) +
-               " m, " + std::to_string(r.response.events.size()) + " events>";
+               " m, " + std::to_string(r.response.events.size()) + " events" + (remark.empty() ? "" : "; " + remark) +
+               ">";
       });
 
   const auto bind_integrate_of = [&](auto* type, const char* doc) {

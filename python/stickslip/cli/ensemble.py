@@ -280,7 +280,7 @@ def _stationary(ensemble: Ensemble) -> dict:
             "end_s": stationary.end,
             "velocity_variance_m2_s2": _estimate("the velocity variance", *variance),
             "growth_rate_m2_s": _estimate("the growth rate", *growth),
-            "remark": stationary.remark,
+            "remark": "; ".join(filter(None, (stationary.remark, ensemble.remark))),
         }
     }
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import sys
 from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,7 +16,7 @@ from .output import check_outputs, check_whole, json_text, write_csv
 from .parser import number, numbers, ratio, ratios, whole
 
 if TYPE_CHECKING:
-    from ..risk.fragility import Fragility
+    from ..risk.fragility import Bands, Fragility
 
 __all__ = ["add_fragility"]
 
@@ -109,18 +110,22 @@ def _fragility(args: argparse.Namespace) -> str:
     records = len(set(suite.metadata["record"].tolist()))
     if args.pga:
         suite = suite.stripes(pga_g=sorted(args.pga))
+    shown = sys.stderr is not None and sys.stderr.isatty()
     f = Fragility.fit(
-        sweep(block, suite, settle=True, **drawn),
+        sweep(block, suite, settle=True, progress=shown, **drawn),
         im="pga_g",
         thresholds=sorted(args.thresholds),
         separate=args.separate,
         method=args.method or ("lognormal" if args.pga else "cloud"),
     )
-    rows = _rows(f, records)
+    bands = f.bands(_LEVEL, progress=shown) if records > 1 else None
+    rows = _rows(f, bands)
     if hazard is not None:
         h = f.rate_of_exceedance(hazard)
-        for row, rate, p in zip(rows, h.rate.tolist(), h.probability(years).tolist()):
-            row |= {"rate_per_year": rate, "years": years, "probability": p}
+        rates = (h.rate.tolist(), h.extrapolated.tolist(), h.probability(years).tolist())
+        for row, rate, share, p in zip(rows, *rates):
+            row |= {"rate_per_year": rate, "rate_extrapolated": share}
+            row |= {"years": years, "probability": p}
     written = [str(args.csv)] if args.csv else []
     if args.csv:
         write_csv(args.csv, list(rows[0]), rows)
@@ -135,11 +140,10 @@ def _fragility(args: argparse.Namespace) -> str:
         figures = [str(args.curves)] if args.curves else []
         about = {"records": records, "method": f.method}
         return json_text({**about, "results": rows, **said, "figures": figures})
-    return "\n".join([*_lines(rows), *(f"wrote {printable(name)}" for name in written)])
+    return "\n".join([*_lines(rows, f.im_range), *(f"wrote {printable(name)}" for name in written)])
 
 
-def _rows(f: Fragility, records: int) -> list[dict[str, Any]]:
-    bands = f.bands(_LEVEL) if records > 1 else None
+def _rows(f: Fragility, bands: Bands | None) -> list[dict[str, Any]]:
     rows = []
     for i, threshold in enumerate(f.thresholds):
         low, high = bands.median[i].tolist() if bands else (0.0, math.inf)
@@ -153,26 +157,41 @@ def _rows(f: Fragility, records: int) -> list[dict[str, Any]]:
                 "beta_records": float(f.beta_records[i]),
                 "beta_parameters": float(f.beta_parameters[i]),
                 "hclpf_g": float(f.hclpf[i]),
+                "extrapolated": [
+                    name for name, out in zip(("median_g", "hclpf_g"), f.extrapolated[i]) if out
+                ],
             }
         )
     return rows
 
 
-def _lines(rows: list[dict[str, Any]]) -> Iterable[str]:
+def _lines(rows: list[dict[str, Any]], known: tuple[float, float]) -> Iterable[str]:
+    def shown(row: dict[str, Any], name: str) -> str:
+        return f"{row[name]:.3g}" + "*" * (name in row["extrapolated"])
+
     head = (
         f"{'exceeds [m]':>11}  {'median [g]':>10}  {f'{100 * _LEVEL:.0f} % interval':>16}  beta"
         f"  records  parameters  {'HCLPF [g]':>9}"
     )
+    from ..risk.hazard import MUCH_BEYOND
+
     rated = "rate_per_year" in rows[0]
     years = f"in {rows[0]['years']:g} years" if rated else ""
     yield head + (f"  {'rate [1/year]':>13}  {years:>12}" if rated else "")
+    marked = False
     for row in rows:
         interval = f"{row['median_low_g']:.3g} to {row['median_high_g']:.3g}"
         line = (
-            f"{row['threshold_m']:11.4g}  {row['median_g']:10.3g}  {interval:>16}"
+            f"{row['threshold_m']:11.4g}  {shown(row, 'median_g'):>10}  {interval:>16}"
             f"  {row['beta']:4.2f}  {row['beta_records']:7.2f}  {row['beta_parameters']:10.2f}"
-            f"  {row['hclpf_g']:9.3g}"
+            f"  {shown(row, 'hclpf_g'):>9}"
         )
         if rated:
-            line += f"  {row['rate_per_year']:13.3g}  {row['probability']:12.3g}"
+            mark = "*" * (row["rate_extrapolated"] > MUCH_BEYOND)
+            line += (
+                f"  {row['rate_per_year']:.3g}{mark}".rjust(15) + f"  {row['probability']:12.3g}"
+            )
         yield line
+        marked |= "*" in line
+    if marked:
+        yield f"*: extrapolated, outside {known[0]:.4g} to {known[1]:.4g} g"

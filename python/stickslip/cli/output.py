@@ -16,7 +16,7 @@ from typing import Any, TextIO
 
 from .. import ConvergenceError, build_info
 from .._files import check_writable, replacing
-from .._text import printable
+from .._text import no_formula, printable
 
 __all__ = [
     "FAILURES",
@@ -162,11 +162,16 @@ def version() -> str:
 
 
 def write_csv(file: Path, names: Sequence[str], rows: Iterable[dict[str, Any]]) -> None:
-    """Write rows as CSV with exact doubles, whole or not at all; None is an empty cell."""
+    """Write rows as CSV with exact doubles, whole or not at all; None is an empty cell.
+
+    Texts that a spreadsheet would take for formulas have an apostrophe before them.
+    """
     text = io.StringIO()
     table = csv.DictWriter(text, names, extrasaction="ignore", lineterminator="\n")
-    table.writeheader()
-    table.writerows(rows)
+    table.writerow({name: no_formula(name) for name in names})
+    table.writerows(
+        {n: no_formula(v) if isinstance(v, str) else v for n, v in row.items()} for row in rows
+    )
     with replacing(file) as stream:
         stream.write(text.getvalue().encode("utf-8", "backslashreplace"))
 

@@ -20,6 +20,7 @@ from .. import (
     Stops,
     TriplePendulum,
 )
+from .._core import _check_unit
 from .output import check_not_negative
 from .parser import StoreAll, number, numbers, ratio, ratios
 
@@ -239,6 +240,12 @@ def any_slider_of(args: argparse.Namespace) -> Slider | PlanarSlider:
     return PlanarSlider(slider) if args.planar else slider
 
 
+def _caster(mu: float, reach: float) -> Caster:
+    """A caster by its reach, which may be any length in theories but not of carts."""
+    _check_unit("length", "--reach", "reach", reach)
+    return Caster(mu=mu, reach=reach)
+
+
 def slider_of(args: argparse.Namespace) -> Slider:
     """The slider of the command line on one axis."""
     mu = args.mu
@@ -257,7 +264,7 @@ def slider_of(args: argparse.Namespace) -> Slider:
                 + (" and ".join(given) or "none")
             )
         law: Caster | Coulomb | MultiPendulum | StaticKinetic = (
-            Caster(mu=mu, reach=args.reach)
+            _caster(mu, args.reach)
             if given == ["--reach"]
             else Caster.from_geometry(mu=mu, trail=args.trail, wheel_width=args.wheel_width)
         )

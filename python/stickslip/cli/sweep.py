@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from .. import GroundMotion
 from .batch import Batch, add_files, add_vertical
-from .output import add_outputs, column
+from .output import add_outputs, column, complain
 from .parser import ratio
 from .slider import (
     add_planar,
@@ -99,6 +99,8 @@ def _sweep(args: argparse.Namespace) -> str:
             settle=True,
             contact=args.contact,
         )
+    if table.remark and not table.remark.startswith("nothing slips"):  # of which a warning tells
+        complain(f"warning: {table.remark}")
     for place, slider, message in dict.fromkeys(
         (one.record, one.slider, one.message.partition(":")[0]) for one in table.failures
     ):

@@ -12,7 +12,7 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
-__all__ = ["Archive", "archive_in", "decompressed", "stored", "unpacked"]
+__all__ = ["DEEPEST", "Archive", "archive_in", "decompressed", "stored", "unpacked"]
 
 
 def stored(shown: str) -> tuple[bytes, list[str]]:
@@ -31,7 +31,7 @@ def stored(shown: str) -> tuple[bytes, list[str]]:
         return stream.read(), members
 
 
-_DEEPEST = 4  # archives within archives, of which nobody has made more
+DEEPEST = 4  # archives within archives, of which nobody has made more
 _LARGEST = 64 << 20  # bytes of a record in an archive: 500,000 samples of three components take 20
 _LARGEST_TAR = 1 << 30  # bytes of a tar archive in a compressed file
 
@@ -39,7 +39,7 @@ _LARGEST_TAR = 1 << 30  # bytes of a tar archive in a compressed file
 def unpacked(content: bytes, members: Sequence[str], shown: str) -> bytes:
     """The one file that is meant, out of what it is packed in."""
     left = list(members)
-    for _ in range(_DEEPEST):
+    for _ in range(DEEPEST):
         content = decompressed(content, shown)
         archive = archive_in(content, shown)
         if archive is None:
@@ -104,8 +104,16 @@ def archive_in(content: bytes, shown: str) -> Archive | None:
             assert file is not None  # it is a file
             return _limited(file, _LARGEST, shown)
 
-    macs = [n for n in names if n.startswith("__MACOSX/") or n.rpartition("/")[2].startswith("._")]
-    return Archive([n for n in names if n not in macs], lambda name: guarded(lambda: read(name)))
+    if "[Content_Types].xml" in names:
+        raise ValueError(f"read_record: {shown}: a workbook or document: save its table as CSV")
+    files = [name for name in names if not _OF_A_SYSTEM.search(name)]
+    return Archive(files, lambda name: guarded(lambda: read(name)))
+
+
+# What macOS and Windows add to folders.
+_OF_A_SYSTEM = re.compile(
+    r"^__MACOSX/|(^|/)(\._[^/]*|\.DS_Store|Thumbs\.db|desktop\.ini)$", re.IGNORECASE
+)
 
 
 def _limited(stream: Any, limit: int, shown: str) -> bytes:

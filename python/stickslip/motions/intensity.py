@@ -6,7 +6,7 @@ import os
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, Protocol
+from typing import Any, Literal, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,12 +19,32 @@ from .._core import (
     strong_motion,
 )
 from .._tabular import Tabular
+from .directions import rotd
 from .tables import MEASURES, SPECTRUM_UNITS
 
-__all__ = ["LEVEL_UNITS", "IntensityMeasures", "SuiteSpectra", "beside", "level_of", "spectra"]
+__all__ = [
+    "DIRECTIONS",
+    "LEVEL_UNITS",
+    "OF_DIRECTIONS",
+    "Directions",
+    "IntensityMeasures",
+    "SuiteSpectra",
+    "beside",
+    "check_directions",
+    "level_of",
+    "over_directions",
+    "spectra",
+    "spectrum_of",
+]
 
 # Intensity measures by their short names, which the levels of stripes and fragility curves have.
 LEVEL_UNITS = {"pga_g": "g", "pgv": "m/s", "arias": "m/s", "cav": "m/s", "sa_g": "g"}
+
+# What a measure is of: the component along the axis, or a percentile over the directions of a pair.
+Directions = Literal["axis", "rotd50", "rotd100"]
+DIRECTIONS = {"rotd50": 50, "rotd100": 100}
+OF_DIRECTIONS = {"rotd50": "RotD50 of ", "rotd100": "RotD100 of "}
+_ANGLES = 180  # at steps of 1 degree, as in `rotd`; rotated by 180 more they repeat, with - for +
 
 
 class _Suite(Protocol):
@@ -207,16 +227,55 @@ def beside(
     return {**own, **{(f"{n}_given" if n in own else n): c for n, c in others.items()}}
 
 
+def check_directions(directions: str | None, who: str, measure: str) -> None:
+    """Raise ValueError for directions over which a measure has no value."""
+    known = ["axis", *DIRECTIONS, *(["srss"] if measure in ("sa_g", "spectrum") else [])]
+    if directions is not None and directions not in known:
+        raise ValueError(
+            f"{who}: directions must be {', '.join(map(repr, known[:-1]))} or {known[-1]!r} for"
+            f" {measure}, got {directions!r}"
+        )
+
+
+def over_directions(motion: GroundMotion, directions: str | None) -> str:
+    """The directions that count: those given, for a pair by default those of RotD50."""
+    return "axis" if motion.transverse is None else directions or "rotd50"
+
+
+def spectrum_of(
+    motion: GroundMotion, periods: ArrayLike, damping: float, directions: str
+) -> NDArray[np.float64]:
+    """Pseudo-acceleration [m/s^2] of a motion over its directions, shape (P,)."""
+    if directions in DIRECTIONS:
+        return rotd(motion, periods, damping).percentile(DIRECTIONS[directions])
+    along = np.asarray(response_spectrum(motion, periods, damping).values).reshape(-1)
+    if directions == "axis":
+        return along
+    across = response_spectrum(motion.rotated(90.0), periods, damping)
+    return np.hypot(along, np.asarray(across.values).reshape(-1))
+
+
 def level_of(
-    motion: GroundMotion, measure: str, period: float | None = None, damping: float = 0.05
+    motion: GroundMotion,
+    measure: str,
+    period: float | None = None,
+    damping: float = 0.05,
+    directions: str = "axis",
 ) -> float:
-    """An intensity measure of a motion, by its short name, in the unit of `LEVEL_UNITS`."""
-    if measure == "pga_g":
-        return motion.peak_acceleration / STANDARD_GRAVITY
+    """An intensity measure of a motion, by its short name, in the unit of `LEVEL_UNITS`.
+
+    RotD50 and RotD100 are the median and the maximum over the directions of a pair, SRSS the root
+    of the sum of squares of both components; a motion without a transverse one has its axis alone.
+    """
+    directions = over_directions(motion, directions)
     if measure == "sa_g":
         assert period is not None
-        values = np.asarray(response_spectrum(motion, [period], damping).values)
-        return float(values.item()) / STANDARD_GRAVITY
+        return float(spectrum_of(motion, [period], damping, directions)[0]) / STANDARD_GRAVITY
+    if directions != "axis":
+        each = [level_of(motion.rotated(float(angle)), measure) for angle in range(_ANGLES)]
+        return float(np.percentile(each, DIRECTIONS[directions]))
+    if measure == "pga_g":
+        return motion.peak_acceleration / STANDARD_GRAVITY
     found = strong_motion(motion)
     return {
         "pgv": found.peak_velocity,

@@ -22,7 +22,7 @@ from typing import (
 from .. import _core
 from .._core import GroundMotion
 from .._rows import Rows
-from .archives import archive_in, decompressed, stored, unpacked
+from .archives import DEEPEST, archive_in, decompressed, stored, unpacked
 
 _File: TypeAlias = "str | bytes | os.PathLike[str] | os.PathLike[bytes]"
 _Stream: TypeAlias = Any  # of ObsPy
@@ -362,6 +362,8 @@ def _parsed(
 ) -> list[Component]:
     """The components in the content of a file; a default applies if the file states nothing."""
     wanted = None if component is None else _text(component)
+    if units is not None and not isinstance(units, str):
+        raise TypeError(f'read_record: units must be text, such as "g" or "m/s^2", got {units!r}')
 
     if content[:64].lstrip().startswith(b"{") and b'"timeSeries"' in content:
         from .simcenter import components_of
@@ -515,18 +517,35 @@ def files_in(file: _File) -> list[File]:
     The archive is opened once; each file in it is unpacked where it is read.
     """
     shown = _shown(file)
-    packed, members = stored(shown)
+    content, members = stored(shown)
+    if members:
+        return [File(shown, lambda: unpacked(content, members, shown))]
+    return _packed_in(content, shown, DEEPEST)
+
+
+_PACKED = (".zip", ".tar", ".tgz", ".tar.gz", ".tar.bz2", ".tar.xz")
+
+
+def _packed_in(packed: bytes, shown: str, deepest: int) -> list[File]:
+    """The files in the content of one, also in archives within an archive."""
     content = decompressed(packed, shown)
-    archive = None if members else archive_in(content, shown)
-    if archive is None or len(archive.names) <= 1:
-        member = archive.names[0] if archive and archive.names else ""
-        return [File(shown, lambda: unpacked(content, members, shown), member)]
+    archive = archive_in(content, shown)
+    if archive is None:
+        return [File(shown, lambda: content)]
+    names = archive.names
+    if len(names) <= 1 and not (names and names[0].lower().endswith(_PACKED)):
+        return [File(shown, lambda: unpacked(content, [], shown), names[0] if names else "")]
 
-    def inside(name: str) -> File:
+    def inside(name: str) -> list[File]:
         path = f"{shown}::{name}"
-        return File(path, lambda: unpacked(archive.read(name), [], path))
+        if deepest > 1 and name.lower().endswith(_PACKED):
+            try:
+                return _packed_in(archive.read(name), path, deepest - 1)
+            except ValueError:
+                pass  # raised again where it is read
+        return [File(path, lambda: unpacked(archive.read(name), [], path))]
 
-    return [inside(name) for name in archive.names]
+    return [file for name in names for file in inside(name)]
 
 
 class NotARecord(ValueError):
@@ -570,19 +589,21 @@ _NO_ACCELERATION = re.compile(
 
 
 def _is_no_record(file: File, beside_known: bool) -> bool:
-    """Whether a file that cannot be read is none of acceleration, or of no known format beside
-    files that are."""
+    """Whether a file that cannot be read is none of acceleration, a text or picture, or columns
+    beside records of an agency."""
     try:
         content = file.content()
     except ValueError:
         return False
     if not _is_of_an_agency(content):
-        return beside_known
+        return beside_known or not _core._record_format(content)
     return bool(_NO_ACCELERATION.search(content[:4096].upper()))
 
 
 def _text(component: str | SupportsIndex) -> str:
     """A component as `_core._parse_components` takes it: #1 is a number, and never a name."""
+    if isinstance(component, bool):
+        raise TypeError(f"read_record: component must be a name or a number, got {component}")
     return component if isinstance(component, str) else f"#{index(component)}"
 
 

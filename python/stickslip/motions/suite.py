@@ -18,13 +18,21 @@ from .._core import (
     GroundMotion,
     ResponseSpectrum,
     identity,
-    response_spectrum,
 )
 from .._hdf5 import Saved, as_column, read, read_columns, write, write_columns, write_joined
-from .._numbers import reals
+from .._numbers import real, reals
 from .._tabular import Tabular
 from ..runs.progress import Progress
-from .intensity import LEVEL_UNITS, IntensityMeasures, beside, level_of
+from .intensity import (
+    LEVEL_UNITS,
+    Directions,
+    IntensityMeasures,
+    beside,
+    check_directions,
+    level_of,
+    over_directions,
+    spectrum_of,
+)
 from .reading import LeftOut, free_names, read_suite
 
 __all__ = ["LeftOut", "Suite"]
@@ -313,9 +321,14 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
         sa_g: float | None = None,
         spectrum: ResponseSpectrum | tuple[ArrayLike, ArrayLike] | None = None,
         period: float | None = None,
+        period_range: tuple[float, float] | None = None,
+        at_least: float | None = None,
         damping: float = 0.05,
+        directions: Directions | Literal["srss"] | None = None,
     ) -> Suite:
         """Scale each motion by a factor so that it meets a target.
+
+        All components of a motion have the same factor.
 
         Parameters
         ----------
@@ -333,8 +346,20 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
             ln factor = mean of ln(target / Sa). The damping is that of a ResponseSpectrum.
         period : float, optional
             Period [s] for `sa_g`, at least 0.
+        period_range : (float, float), optional
+            The periods over which `spectrum` counts [s], positive, increasing, among those of the
+            target: 51 in equal ratios, and those of the target between them. The target is a
+            straight line in logarithms between its points. Default: its points.
+        at_least : float, optional
+            For `spectrum`: where the mean of the scaled spectra over the records falls below this
+            multiple of the target, all factors grow by one more factor, so that it nowhere does.
         damping : float, optional
             Damping ratio for `sa_g` and for `spectrum` as arrays.
+        directions : {'axis', 'rotd50', 'rotd100', 'srss'}, optional
+            What meets the target: the component along the axis; the median or the maximum over the
+            horizontal directions, in steps of 1 degree; or, for `sa_g` and `spectrum`, the root of
+            the sum of the squares of the spectra of both components. Default: 'rotd50' for motions
+            with a transverse component, 'axis' for others, which have no choice.
 
         Returns
         -------
@@ -343,7 +368,8 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
         Raises
         ------
         ValueError
-            Not exactly one target; a value out of range; a motion that is zero throughout.
+            Not exactly one target; a value out of range; a motion that is zero throughout;
+            directions other than these; `period_range` or `at_least` without `spectrum`.
         """
         targets = {"pga_g": pga_g, "pgv": pgv, "arias": arias, "sa_g": sa_g, "spectrum": spectrum}
         given = [name for name, value in targets.items() if value is not None]
@@ -353,8 +379,15 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
                 f" {' and '.join(given) or 'none'}"
             )
         if spectrum is None:
+            for what, value in (("period_range", period_range), ("at_least", at_least)):
+                if value is not None:
+                    raise ValueError(
+                        f"Suite.scaled_to: {what} goes with spectrum, got it with {given[0]}"
+                    )
             level = targets[given[0]]
-            return self.scaled(self._factors("scaled_to", given[0], level, period, damping))
+            return self.scaled(
+                self._factors("scaled_to", given[0], level, period, damping, directions)
+            )
         if period is not None:
             raise ValueError("Suite.scaled_to: period goes with sa_g, got it with spectrum")
         if isinstance(spectrum, ResponseSpectrum):
@@ -376,11 +409,25 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
             raise ValueError(
                 f"Suite.scaled_to: targets must be positive and finite, got {target.min()} m/s^2"
             )
+        if period_range is not None:
+            periods, target = _within(periods, target, period_range)
         self._require_motion("scaled_to")
-        factors = []
-        for motion in self._motions:
-            own = np.asarray(response_spectrum(motion, periods, damping).values).reshape(-1)
-            factors.append(math.exp(np.mean(np.log(target / own))))
+        check_directions(directions, "Suite.scaled_to", "spectrum")
+        own = np.array(
+            [
+                spectrum_of(m, periods, damping, over_directions(m, directions))
+                for m in self._motions
+            ]
+        )
+        factors = np.exp(np.log(target / own).mean(axis=1))
+        if at_least is not None:
+            floor = real(at_least, "Suite.scaled_to: at_least")
+            if not 0 < floor < math.inf:
+                raise ValueError(
+                    f"Suite.scaled_to: at_least must be positive and finite, got {floor:g}"
+                )
+            mean = (factors[:, np.newaxis] * own).mean(axis=0)
+            factors *= max(1.0, float((floor * target / mean).max()))
         return self.scaled(factors)
 
     def stripes(
@@ -392,6 +439,7 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
         sa_g: ArrayLike | None = None,
         period: float | None = None,
         damping: float = 0.05,
+        directions: Directions | None = None,
     ) -> Suite:
         """Scale each motion to each of several levels of one intensity measure.
 
@@ -412,16 +460,19 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
             Period [s] for `sa_g`, at least 0.
         damping : float, optional
             Damping ratio for `sa_g`.
+        directions : {'axis', 'rotd50', 'rotd100'}, optional
+            As for `scaled_to`.
 
         Returns
         -------
         Suite
             All motions at the first level, then all at the second, and so on. The metadata of each
             motion gain `record`, the name of the record that was scaled, which is different for
-            each record of this suite; `stripe`, the level; and `factor`. The level is also in a
-            column with the name of the measure: the property `pga_g`, or `pgv`, `arias` or `sa_g`
-            with `sa_period`. If the suite has a column `record` already, it is kept: motions with
-            the same `record`, such as two components of one station, count as one record.
+            each record of this suite; `stripe`, the level; `factor`; and, if there are pairs,
+            `directions`, such as 'rotd50'. The level is also in a column with the name of the
+            measure: `pgv`, `arias` or `sa_g` with `sa_period`; the property `pga_g` is that of the
+            axis. If the suite has a column `record` already, it is kept: motions with the same
+            `record`, such as two components of one station, count as one record.
 
         Raises
         ------
@@ -462,12 +513,17 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
             raise ValueError(
                 "Suite.stripes: this suite consists of stripes already; give its levels at once"
             )
-        factors = self._factors("stripes", measure, levels[:, np.newaxis], period, damping)
+        factors = self._factors(
+            "stripes", measure, levels[:, np.newaxis], period, damping, directions
+        )
         count, records = len(levels), len(self)
         columns = {name: np.tile(column, count) for name, column in self._metadata.items()}
         columns.setdefault("record", np.tile(self._different_names(), count))
         columns["stripe"] = np.repeat(levels, records)
         columns["factor"] = factors.ravel()
+        counted = [over_directions(motion, directions) for motion in self._motions]
+        if set(counted) != {"axis"}:
+            columns["directions"] = np.tile(counted, count)
         if measure != "pga_g":  # a property of every suite
             columns[measure] = columns["stripe"]
         if period is not None:
@@ -476,7 +532,13 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
         return Suite(motions, columns)
 
     def _factors(
-        self, who: str, measure: str, levels: Any, period: float | None, damping: float
+        self,
+        who: str,
+        measure: str,
+        levels: Any,
+        period: float | None,
+        damping: float,
+        directions: str | None,
     ) -> NDArray[np.float64]:
         """The factors that scale each motion to a level, or, of a column of levels, to each."""
         if (measure == "sa_g") != (period is not None):
@@ -493,7 +555,13 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
                 f" {LEVEL_UNITS[measure]}"
             )
         self._require_motion(who)
-        own = np.array([level_of(m, measure, period, damping) for m in self._motions])
+        check_directions(directions, f"Suite.{who}", measure)
+        own = np.array(
+            [
+                level_of(m, measure, period, damping, over_directions(m, directions))
+                for m in self._motions
+            ]
+        )
         zero = np.flatnonzero(~(own > 0))
         if zero.size:
             raise ValueError(
@@ -684,6 +752,32 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
         for part in (times, *others.values()):
             part.require_used()
         return cls(motions, read_columns(h5, "metadata", len(names)))
+
+
+def _within(
+    periods: NDArray[np.float64], target: NDArray[np.float64], period_range: Any
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """A target spectrum at periods of a range."""
+    ends = np.asarray(reals(period_range, "Suite.scaled_to: period_range"), float)
+    if not (np.diff(periods) > 0).all():
+        raise ValueError("Suite.scaled_to: periods must increase for a period_range")
+    known = periods[periods > 0]
+    if ends.shape != (2,) or not 0 < ends[0] < ends[1]:
+        raise ValueError(
+            "Suite.scaled_to: period_range must be two periods, positive and increasing, got"
+            f" {period_range!r}"
+        )
+    if not known.size or ends[0] < known[0] or ends[1] > known[-1]:
+        raise ValueError(
+            f"Suite.scaled_to: period_range must lie within the periods of the target, got"
+            f" {ends[0]:g} to {ends[1]:g} s with a target from {periods[0]:g} to"
+            f" {periods[-1]:g} s"
+        )
+    inside = known[(known > ends[0]) & (known < ends[1])]
+    chosen = np.union1d(np.geomspace(*ends, 51), inside)
+    chosen[[0, -1]] = ends
+    values = np.log(target[periods > 0])
+    return chosen, np.exp(np.interp(np.log(chosen), np.log(known), values))
 
 
 class _Taken:

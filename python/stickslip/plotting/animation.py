@@ -60,12 +60,19 @@ class Animation(FuncAnimation):
             stream.write(self.to_jshtml().encode() if kind == "html" else self._film(kind))
         return file
 
+    def save(self, filename: str | os.PathLike[str], *args: Any, **options: Any) -> None:
+        """As `write`, whole or not at all; with options as of matplotlib's own `save`."""
+        if args or options:
+            super().save(os.fspath(filename), *args, **options)
+        else:
+            self.write(filename)
+
     def _film(self, kind: str) -> bytes:
         """The content of a GIF or an MP4; matplotlib writes either into a file."""
         writer = PillowWriter if kind == "gif" else FFMpegWriter
         with tempfile.TemporaryDirectory() as folder:
             film = Path(folder) / f"film.{kind}"
-            self.save(film, writer=writer(fps=1000 / self._interval))
+            super().save(film, writer=writer(fps=1000 / self._interval))
             return film.read_bytes()
 
 

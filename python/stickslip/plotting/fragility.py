@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 
+from ..motions.intensity import OF_DIRECTIONS
 from .figures import one_panel
 from .styles import COLORS, GRAY, style, wrapped
 
@@ -20,10 +21,25 @@ MEASURES = {
 }
 
 
-def measure_label(name: str, unit: str, period: float | None = None) -> str:
-    """The label of an axis of an intensity measure."""
-    at = f" at {period:g} s" if period is not None else ""
-    return MEASURES.get(name, name) + at + (f" [{unit}]" if unit else "")
+def measure_label(of: Any) -> str:
+    """The label of an axis of the intensity measure of a Fragility."""
+    at = f" at {of.im_period:g} s" if of.im_period is not None else ""
+    name = OF_DIRECTIONS.get(of.im_directions, "") + MEASURES.get(of.im, of.im)
+    return name + at + (f" [{of.im_unit}]" if of.im_unit else "")
+
+
+def _plot_known(axes: Axes, x: Any, y: Any, known: tuple[float, float], **style: Any) -> None:
+    """A curve, solid at known values of x and dashed beyond them."""
+    low, high = known
+    label = style.pop("label")
+    inside = (x >= low) & (x <= high)
+    axes.plot(x[inside], y[inside], label=label, **style)
+    for beyond in (x <= x[inside][0], x >= x[inside][-1]) if inside.any() else (x == x,):
+        axes.plot(x[beyond], y[beyond], linestyle="--", **style)
+
+
+def _explain_dashes(axes: Axes) -> None:
+    axes.plot([], [], color=GRAY, linestyle="--", label="beyond the ground motions")
 
 
 @overload
@@ -54,7 +70,7 @@ def plot_fragility(
     matplotlib Figure or Axes
         The axes if they were given, otherwise the new figure.
     """
-    im = fragility.grid()
+    im = np.union1d(fragility.grid(), fragility.im_range)
     curves = fragility.probability(im)
     levels, fractions = fragility.fractions()
     bands = None if level is None else fragility.bands(level, im)
@@ -66,12 +82,13 @@ def plot_fragility(
                 axes.fill_between(
                     im, bands.low[i], bands.high[i], color=color, alpha=0.2, linewidth=0
                 )
-            axes.plot(im, curves[i], color=color, label=label)
+            _plot_known(axes, im, curves[i], fragility.im_range, color=color, label=label)
             if len(levels) <= 50:
                 axes.plot(levels, fractions[i], "o", color=color, markersize=4)
+        _explain_dashes(axes)
         axes.set_xscale("log")
         axes.set_ylim(0, 1)
-        axes.set_xlabel(measure_label(fragility.im, fragility.im_unit, fragility.im_period))
+        axes.set_xlabel(measure_label(fragility))
         axes.set_ylabel("probability of exceedance")
         axes.legend(title=fragility.quantity.replace("_", " "), loc="upper left")
         if title:
@@ -108,12 +125,14 @@ def plot_exceedances(
         for i, (label, rate) in enumerate(zip(f.labels, exceedances.rate)):
             color = COLORS[i % len(COLORS)]
             axes.fill_between(middle, parts[i] / rate, color=color, alpha=0.2, linewidth=0)
-            axes.plot(middle, parts[i] / rate, color=color, label=f"{label}: {rate:.2g} per year")
+            name = f"{label}: {rate:.2g} per year"
+            _plot_known(axes, middle, parts[i] / rate, f.im_range, color=color, label=name)
         for end in hazard.im[[0, -1]]:
             axes.axvline(end, color=GRAY, linewidth=0.8, linestyle=":")
+        _explain_dashes(axes)
         axes.set_xscale("log")
         axes.set_ylim(bottom=0)
-        axes.set_xlabel(measure_label(f.im, f.im_unit, f.im_period))
+        axes.set_xlabel(measure_label(f))
         axes.set_ylabel("contribution to the rate, per unit of ln IM")
         axes.legend(title=f.quantity.replace("_", " "), loc="upper right")
         if title:
@@ -162,7 +181,7 @@ def plot_design_chart(
     middle = int(np.argmin(np.abs(chart.percentiles - 50)))
     unit = {"pga_g": "g", "pgv": "m/s"}[chart.measure]
     shares = ", ".join(f"{p:g}" for p in chart.percentiles)
-    over = {"axis": "", "rotd50": "RotD50 of ", "rotd100": "RotD100 of "}[chart.directions]
+    over = OF_DIRECTIONS.get(chart.directions, "")
     with style():
         figure, axes = one_panel("plot_design_chart", None, ax, 7, 4.5)
         for i, (level, color) in enumerate(zip(chart.levels, COLORS)):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Iterable
 from typing import Any
 
@@ -12,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from .._core import (
     STANDARD_GRAVITY,
     GroundMotion,
-    PlausibilityWarning,
+    _check_unit,
     response_spectrum,
     strong_motion,
 )
@@ -39,12 +38,13 @@ MEASURES: dict[str, Callable[[Any], Any]] = {
 # A motion for which one of these is 0 moves nothing.
 OF_MOTION = frozenset(("pga", "pgv", "Ia", "Sa"))
 
-# Values beyond which another unit is more probable: name, whether it is implausible, which unit.
-_IMPLAUSIBLE: tuple[tuple[str, Callable[[Any], Any], str], ...] = (
-    *((name, lambda x: x > 6, "m/s^2") for name in ("ky", "pga", "Sa")),
-    ("pgv", lambda x: (x > 0) & (x < 1), "m/s"),
-    ("Ia", lambda x: x > 100, "cm/s"),
-)
+# In the table of plausible ranges.
+_QUANTITIES = {
+    "ky": "yield acceleration",
+    **dict.fromkeys(("pga", "Sa"), "ground acceleration in g"),
+    "pgv": "ground velocity in cm/s",
+    "Ia": "Arias intensity",
+}
 
 
 def checked(who: str, given: dict[str, ArrayLike], stacklevel: int) -> dict[str, NDArray[Any]]:
@@ -72,14 +72,8 @@ def checked(who: str, given: dict[str, ArrayLike], stacklevel: int) -> dict[str,
                 f" {array[wrong].flat[0]}{unit}{where}{reason}"
             )
         arrays[name] = array
-    for name, implausible, unit in _IMPLAUSIBLE:
-        if name in arrays and (odd := implausible(arrays[name])).any():
-            warnings.warn(
-                f"{who}: {name} is in {UNITS[name]}, got {arrays[name][odd].flat[0]:.4g}: is it in"
-                f" {unit}?",
-                PlausibilityWarning,
-                stacklevel=stacklevel,
-            )
+    for name in filter(_QUANTITIES.get, arrays):
+        _check_unit(_QUANTITIES[name], who, name, arrays[name].ravel(), stacklevel)
     try:
         np.broadcast_shapes(*(array.shape for array in arrays.values()))
     except ValueError:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -49,6 +49,7 @@ class BrayTravasarou2007(Regression):
     """
 
     forms = (Form("", ("Sa", "Ts", "M")),)
+    ranges: ClassVar = {"ky": (0.02, 0.4)}
     source = "Bray and Travasarou 2007, J. Geotech. Geoenviron. Eng. 133, 381-392"
     degraded_period = 1.5
 
@@ -74,6 +75,11 @@ class BrayTravasarou2007(Regression):
         ------
         ValueError
             An argument that is not positive and finite; Ts or a measure of the motion may be 0.
+
+        Warns
+        -----
+        RangeWarning
+            ky outside 0.02 to 0.4 g.
         """
         return self._predict({"ky": ky, "Sa": Sa, "Ts": Ts, "M": M})
 
@@ -115,6 +121,7 @@ class BrayMacedoTravasarou2018(Regression):
     """
 
     forms = (Form("", ("Sa", "Ts", "M")),)
+    ranges: ClassVar = {"ky": (0.01, 0.8)}
     source = "Bray, Macedo and Travasarou 2018, J. Geotech. Geoenviron. Eng. 144, 04017124"
     degraded_period = 1.5
 
@@ -168,6 +175,7 @@ class BrayMacedo2019(Regression):
     """
 
     forms = (Form("", ("Sa", "Ts", "M", "pgv")), Form("without PGV", ("Sa", "Ts", "M")))
+    ranges: ClassVar = {"ky": (0.01, 0.8)}
     source = "Bray and Macedo 2019, J. Geotech. Geoenviron. Eng. 145, 04019106"
     degraded_period = 1.3
 
@@ -206,6 +214,8 @@ class BrayMacedo2019(Regression):
 
         Warns
         -----
+        RangeWarning
+            ky outside 0.01 to 0.8 g.
         PlausibilityWarning
             pgv below 1, probably in m/s.
         """

@@ -42,7 +42,7 @@ class Jibson2007(Regression):
         Form("equation 10", ("pga", "Ia")),
     )
     source = "Jibson 2007, Engineering Geology 91, 209-218"
-    ranges: ClassVar = {"M": (5.3, 7.6)}
+    ranges: ClassVar = {"M": (5.3, 7.6), "ky": (0.05, 0.4)}
 
     def predict(
         self,
@@ -79,7 +79,7 @@ class Jibson2007(Regression):
         Warns
         -----
         RangeWarning
-            M outside 5.3 to 7.6.
+            M outside 5.3 to 7.6; ky outside 0.05 to 0.4 g.
         """
         return self._predict({"ky": ky, "pga": pga, "M": M, "Ia": Ia})
 

@@ -26,7 +26,7 @@ _TAKEN = (*MEASURES, "Sa")  # from a record
 
 
 class RangeWarning(UserWarning):
-    """Warning about an argument outside the range of the data that a regression was fitted to."""
+    """Warning about a value outside the range of the data that a model was fitted to."""
 
 
 class Form(NamedTuple):

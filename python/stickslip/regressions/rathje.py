@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -63,6 +63,7 @@ class SaygiliRathje2008(Regression):
         Form("PGA and Ia", ("pga", "Ia")),
         Form("PGA, PGV and Ia", ("pga", "pgv", "Ia")),
     )
+    ranges: ClassVar = {"ky": (0.05, 0.3)}
     source = "Saygili and Rathje 2008, J. Geotech. Geoenviron. Eng. 134, 790-803"
 
     def predict(
@@ -95,6 +96,8 @@ class SaygiliRathje2008(Regression):
 
         Warns
         -----
+        RangeWarning
+            ky outside 0.05 to 0.3 g.
         PlausibilityWarning
             pgv below 1, probably in m/s.
         """
@@ -125,7 +128,7 @@ class RathjeSaygili2009(Regression):
     With r = ky / pga and D in cm::
 
         ln D = 4.89 - 4.85 r - 19.64 r^2 + 42.49 r^3 - 29.06 r^4 + 0.72 ln pga + 0.89 (M - 6)
-        sigma = 0.73 + 0.79 r - 0.54 r^2
+        sigma = 0.732 + 0.789 r - 0.539 r^2
 
     D = 0 for ky >= pga. We know no limits of the arguments.
 
@@ -162,7 +165,7 @@ class RathjeSaygili2009(Regression):
 
     def _ln_displacement(self, form: Form, a: Mapping[str, NDArray[Any]]) -> LnDisplacement:
         r, p_zero = ratio(a["ky"], a["pga"])
-        sigma = 0.73 + 0.79 * r - 0.54 * r**2
+        sigma = 0.732 + 0.789 * r - 0.539 * r**2
         return LnDisplacement(_of_pga_magnitude(r, a["pga"], a["M"]) + CM, sigma, p_zero)
 
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from .._numbers import real
 from .._optional import optional
+from ..runs.progress import Progress
 from .exceedance import Link, fit_parallel
 from .levels import Levels
 from .observations import Event, Observations
@@ -161,15 +162,19 @@ class Cloud:
         found = self._regression(np.log(self.data.im), parts)
         return {name: float(value[0]) for name, value in zip(("a", "b", "sigma"), found)}
 
-    def estimate(self, weights: Array | None = None) -> dict[str, NDArray[Any]]:
+    def estimate(
+        self, weights: Array | None = None, progress: Progress | None = None
+    ) -> dict[str, NDArray[Any]]:
         """The parameters of the two parts, for each row of weights of the records.
 
         With `fitted` and `spread` as in `Exceedance.estimate`, of shape (B,).
         """
         rows = np.ones((1, self.records)) if weights is None else weights
-        size = max(1, int(1e6 / len(self.x)))
+        size = max(1, min(100, int(1e6 / len(self.x))))
         found: list[dict[str, NDArray[Any]]] = []
         for begin in range(0, len(rows), size):
+            if progress is not None:
+                progress(begin, len(rows))
             some = rows[begin : begin + size]
             parts = {name: some @ values for name, values in self._pooled.items()}
             one: dict[str, NDArray[Any]] = {**self._fitted(self.x, parts)}

@@ -13,6 +13,7 @@ from .._tables import Columns
 from .._tabular import Tabular
 from ..motions.intensity import LEVEL_UNITS, level_of
 from ..motions.suite import Suite
+from ..runs.progress import Progress
 from ..sweeps.parameter_grid import grid
 from ..sweeps.run import sweep
 
@@ -122,6 +123,7 @@ def design_chart(
     percentiles: ArrayLike = (16, 50, 84),
     directions: Directions = "axis",
     threads: SupportsIndex | None = None,
+    progress: bool | Progress = False,
 ) -> DesignChart:
     """Slide blocks under records scaled to levels of PGA or PGV, for a design chart.
 
@@ -139,7 +141,7 @@ def design_chart(
         'axis' slides along the axis of each record. The others slide along each horizontal
         direction of pairs, in steps of 10 degrees, and take the median or the maximum over the
         directions, of the displacement as of the measure to which a pair is scaled.
-    threads : int, optional
+    threads, progress : optional
         As for `sweep`.
 
     Returns
@@ -175,12 +177,12 @@ def design_chart(
     blocks = grid(Coulomb, mu=coefficients)
     statistic = np.max if directions == "rotd100" else np.median
     if directions == "axis":
-        stripes, turns = suite.stripes(pga_g=pga_g, pgv=pgv), 1
+        stripes, turns = suite.stripes(pga_g=pga_g, pgv=pgv, directions="axis"), 1
     else:
         rotated = [_directions(motion) for motion in suite]
         turns = len(rotated[0])
         stripes = _rotated_stripes(rotated, measure, levels, statistic)
-    table = sweep(blocks, stripes, settle=True, threads=threads)
+    table = sweep(blocks, stripes, settle=True, threads=threads, progress=progress)
     if table.failures:
         raise ValueError(f"design_chart: {table.failures[0].message}")
 

@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from .._numbers import real
 from .._tables import Columns
 from .._tabular import Tabular
-from ..motions.intensity import level_of
 from ..sweeps.table import SweepTable
 from .cloud import Cloud
 from .observations import Measure, observe
@@ -121,5 +121,5 @@ def intensity_efficiency(
     for im in measures:
         add(im)
     for period in periods:
-        add(lambda motion, t=period: level_of(motion, "sa_g", t), f"sa_g({period:g} s)")  # type: ignore[misc]
+        add(f"sa({real(period, 'intensity_efficiency: periods')!r})", f"sa_g({period:g} s)")
     return IntensityEfficiency(names, np.array(sigma), np.array(slope))

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._optional import optional
+from ..runs.progress import Progress
 from .levels import Levels
 from .observations import Observations
 from .shifts import deviation_of_draws, shifts
@@ -32,6 +33,7 @@ class Link:
         self.method = method
         self.farthest = 8.0 if method == "lognormal" else 36.0
         self.deviation = 1.0 if method == "lognormal" else math.pi / math.sqrt(3)
+        self.log_cdf = special.log_ndtr if method == "lognormal" else special.log_expit
         self.cdf = special.ndtr if method == "lognormal" else special.expit
         self.quantile = special.ndtri if method == "lognormal" else special.logit
 
@@ -163,20 +165,102 @@ class Exceedance:
             if steps[-1] and self.separate:
                 break
         if all(steps) or (self.separate and any(steps)):
-            label = data.labels[steps.index(True)]
+            place = steps.index(True)
+            hits = self.hits[place]
+            at = data.im == data.im[hits.sum(axis=0) > 0].min()
+            share = hits[:, at].sum() / self.count[:, at].sum()
+            where = f"{data.im[at][0]:.4g} {data.im_unit}".rstrip()
+            but = f" but at {where}, where {100 * share:.3g} % do" if share < 1 else ""
+            also = "" if all(steps) else ", or separate=False, which lends it that of the others"
             raise ValueError(
-                f"Fragility.fit: {data.im_name} separates the responses that exceed {label} from"
-                " all others, but for one level at most, so the fit is unbounded, with a dispersion"
-                " of zero: it needs more levels between them, or more records"
+                f"Fragility.fit: {data.im_name} separates the responses that exceed"
+                f" {data.labels[place]} from all others{but}: any steeper curve fits better, so the"
+                " fit is unbounded, with a dispersion of zero: it needs more levels about"
+                f" {where}, or more records{also}"
             )
 
-    def estimate(self, weights: Array | None = None) -> dict[str, NDArray[Any]]:
+    def shared_dispersion(self) -> tuple[float, Array]:
+        """Test whether all thresholds have one dispersion; and the dispersion of each alone.
+
+        A likelihood ratio. Responses to one record are alike: the ratio is divided by the factor by
+        which that increases the variances of the differences of slopes, on average (Rao and Scott
+        1984), and compared with the distribution of F, as the factor is estimated from the records.
+
+        Returns
+        -------
+        p : float
+            NaN for one threshold or record, and for separate dispersions.
+        beta : ndarray, shape (T,)
+        """
+        if self.separate or len(self.hits) < 2 or self.records < 2:
+            return math.nan, np.full(len(self.hits), math.nan)
+        stats = optional("scipy.stats", "risk", "Fragility.fit")
+        ratio, slope, intercept, alone = self.likelihood_ratio()
+        free = len(self.hits) - 1
+        x, count = np.log(self.data.im), self.count.sum(axis=0)
+        z = x - x.mean()
+        eta = slope * x + intercept[:, np.newaxis]
+        np.clip(eta, -self.link.farthest, self.link.farthest, out=eta)
+        p = self.link.cdf(eta)
+        variance = p * self.link.cdf(-eta)
+        density = self.link.density(eta, variance)
+        residual = (self.hits.sum(axis=1) - count * p) * density / variance
+        weight = count * density**2 / variance
+        # Influences of the records on the slopes, and the variances of slopes if all responses
+        # were independent.
+        scores = self.levels.by_record(np.stack([residual, residual * z], axis=1))
+        moments = [(weight * z**i).sum(axis=1) for i in range(3)]
+        determinant = moments[0] * moments[2] - moments[1] ** 2
+        of_slopes = np.stack([-moments[1], moments[0]], axis=1) / determinant[:, np.newaxis]
+        influence = (scores * of_slopes[:, :, np.newaxis]).sum(axis=1)
+        independent = np.diag(moments[0] / determinant)
+        differences = np.eye(free, free + 1) - np.eye(free, free + 1, 1)
+        found = np.atleast_2d(np.cov(influence)) * self.records
+        factor = np.trace(
+            np.linalg.solve(
+                differences @ independent @ differences.T, differences @ found @ differences.T
+            )
+        )
+        score = ratio / (free * max(factor / free, 1.0))
+        return float(stats.f.sf(score, free, self.records - 1)), alone
+
+    def likelihood_ratio(self) -> tuple[float, float, Array, Array]:
+        """Twice the gain in log-likelihood by separate dispersions.
+
+        Returns
+        -------
+        ratio, slope : float
+        intercept, beta : ndarray, shape (T,)
+            The common fit, and the dispersions of the separate ones.
+        """
+        n = self.levels.by_level(self.count.sum(axis=0))
+        k = self.levels.by_level(self.hits.sum(axis=1))
+
+        def likelihood(slope: Array, intercept: Array) -> float:
+            eta = slope[:, np.newaxis] * self.x + intercept[:, np.newaxis]
+            return float((k * self.link.log_cdf(eta) + (n - k) * self.link.log_cdf(-eta)).sum())
+
+        common, cuts = fit_parallel(self.x, k[np.newaxis], n[np.newaxis], self.link)
+        each, cut = fit_parallel(
+            self.x, k[:, np.newaxis], np.repeat(n[np.newaxis], len(k), axis=0), self.link
+        )
+        shared = likelihood(np.repeat(common, len(k)), cuts[0])
+        ratio = 2 * (likelihood(each, cut[:, 0]) - shared)
+        mixed = _outcomes(k[np.newaxis], n[np.newaxis])[1][0]
+        beta = np.where(mixed, self.link.deviation / each, 0.0)
+        return ratio, float(common[0]), cuts[0], beta
+
+    def estimate(
+        self, weights: Array | None = None, progress: Progress | None = None
+    ) -> dict[str, NDArray[Any]]:
         """The median and the dispersion, for each row of weights of the records.
 
         Parameters
         ----------
         weights : ndarray, shape (B, R), optional
             Default: one row of ones.
+        progress : callable, optional
+            Called with the number of rows that are done, and all.
 
         Returns
         -------
@@ -185,9 +269,11 @@ class Exceedance:
             whether the likelihood has its maximum at a dispersion above zero.
         """
         rows = np.ones((1, self.records)) if weights is None else weights
-        size = max(1, int(2e6 / (len(self._k) * len(self.x))))
+        size = max(1, min(100, int(2e6 / (len(self._k) * len(self.x)))))
         slopes, intercepts, both, spread = [], [], [], []
         for begin in range(0, len(rows), size):
+            if progress is not None:
+                progress(begin, len(rows))
             some = rows[begin : begin + size]
             n = some @ self._n
             k = np.stack([some @ one for one in self._k], axis=1)

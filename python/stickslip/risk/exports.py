@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
@@ -11,6 +12,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from .._files import replacing
+from .._tables import cell
 
 if TYPE_CHECKING:
     from .fragility import Fragility
@@ -43,7 +45,7 @@ def to_pelicun(fragility: Fragility, path: str | os.PathLike[str], id: str) -> P
         )
     if fragility.im not in _PELICUN:
         raise ValueError(
-            f"Fragility.to_pelicun: im must be one of {', '.join(_PELICUN)}, got {fragility.im!r}"
+            f"Fragility.to_pelicun: im must be {_names(_PELICUN)}, got {fragility.im!r}"
         )
     demand, unit = _PELICUN[fragility.im]
     if fragility.im == "sa_g":
@@ -54,8 +56,12 @@ def to_pelicun(fragility: Fragility, path: str | os.PathLike[str], id: str) -> P
     for i, (median, beta) in enumerate(zip(fragility.median, fragility.beta), 1):
         heads += [f"LS{i}-{name}" for name in ("Family", "Theta_0", "Theta_1")]
         row += ["lognormal", repr(float(median)), repr(float(beta))]
+    note = _note(fragility)
+    if note:
+        heads.append("Comment")
+        row.append(note)
     with replacing(path) as stream:
-        stream.write(f"{','.join(heads)}\n{','.join(row)}\n".encode())
+        stream.write(f"{','.join(heads)}\n{','.join(map(cell, row))}\n".encode())
     return Path(os.fsdecode(path))
 
 
@@ -63,8 +69,7 @@ def to_openquake(fragility: Fragility, path: str | os.PathLike[str], id: str) ->
     """See `Fragility.to_openquake`."""
     if fragility.im not in _OPENQUAKE:
         raise ValueError(
-            f"Fragility.to_openquake: im must be one of {', '.join(_OPENQUAKE)}, got"
-            f" {fragility.im!r}"
+            f"Fragility.to_openquake: im must be {_names(_OPENQUAKE)}, got {fragility.im!r}"
         )
     imt, factor = _OPENQUAKE[fragility.im]
     if imt == "SA":
@@ -74,7 +79,9 @@ def to_openquake(fragility: Fragility, path: str | os.PathLike[str], id: str) ->
     root = ElementTree.Element("nrml", {"xmlns": _NRML})
     about = {"id": id, "assetCategory": "contents", "lossCategory": "contents"}
     model = ElementTree.SubElement(root, "fragilityModel", about)
-    ElementTree.SubElement(model, "description").text = f"stickslip: {fragility.quantity}"
+    about_it = f"stickslip: {fragility.quantity} by {fragility._measure()}"
+    note = _note(fragility)
+    ElementTree.SubElement(model, "description").text = about_it + (f"; {note}" if note else "")
     ElementTree.SubElement(model, "limitStates").text = " ".join(states)
     im = fragility.grid()
     if fragility.method == "lognormal":
@@ -101,11 +108,22 @@ def to_openquake(fragility: Fragility, path: str | os.PathLike[str], id: str) ->
     return Path(os.fsdecode(path))
 
 
+def _names(known: Iterable[str]) -> str:
+    """What `im` of `Fragility.fit` may be, as in a sentence."""
+    *first, last = ("sa(1.0)" if name == "sa_g" else name for name in known)
+    return f"{', '.join(first)} or {last}"
+
+
+def _note(fragility: Fragility) -> str:
+    outside = fragility._outside()
+    return f"extrapolated: {outside}" if outside else ""
+
+
 def _period(fragility: Fragility, who: str) -> float:
     if fragility.im_period is None:
         raise ValueError(
-            f"Fragility.{who}: the period of sa_g is unknown; the column sa_period of the suite"
-            " gives it, as stripes(sa_g=..., period=...) does"
+            f"Fragility.{who}: the period of the column sa_g is unknown; fit by im='sa(1.0)', or"
+            " give the suite a column sa_period, as stripes(sa_g=..., period=...) does"
         )
     return fragility.im_period
 

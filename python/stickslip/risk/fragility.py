@@ -16,6 +16,9 @@ from .._numbers import real, reals, whole_number
 from .._optional import optional
 from .._tables import Columns
 from .._tabular import Tabular
+from ..motions.intensity import OF_DIRECTIONS
+from ..regressions import RangeWarning
+from ..runs.progress import Progress, shown
 from ..sweeps.table import SweepTable
 from .cloud import Cloud
 from .exceedance import Exceedance
@@ -32,6 +35,7 @@ __all__ = ["Bands", "Fragility"]
 _Array = NDArray[np.float64]
 _METHODS = ("lognormal", "logit", "cloud")
 _HCLPF = 0.01  # on the mean curve
+_UNLIKELY = 0.01  # probability of the data below which a shared dispersion is doubted
 
 
 class Bands(NamedTuple):
@@ -85,7 +89,16 @@ class Fragility(Tabular):
     im, im_unit : str
         Name and unit of the intensity measure.
     im_period : float or None
-        Period [s], of stripes of `sa_g`.
+        Period [s] of `sa_g`.
+    im_directions : {'axis', 'rotd50', 'rotd100', ''}
+        What the measure is of: the component along the axis, or the median or the maximum over the
+        directions of pairs; empty for your own columns and functions.
+    im_range : tuple of float
+        The lowest and the highest intensity of the ground motions. Beyond them the curves are
+        extrapolated.
+    p_shared : float
+        The probability of dispersions that differ as much as these or more, if the thresholds have
+        one; NaN if that is not tested: one threshold or record, 'cloud', or `separate`.
     """
 
     thresholds: tuple[float | Event, ...]
@@ -97,11 +110,32 @@ class Fragility(Tabular):
         self._found = model.estimate()
         self.thresholds = data.thresholds
         self.im, self.im_unit, self.im_period = data.im_name, data.im_unit, data.im_period
+        self.im_directions = data.im_directions
         self.method, self.quantity = method, quantity
         self.median, self.beta = (one[0] for one in model.summary(self._found))
         self.beta_parameters = np.minimum(model.deviation_of_draws(), self.beta)
         self.beta_records = np.sqrt(self.beta**2 - self.beta_parameters**2)
         self.hclpf = model.quantile(self._found, _HCLPF)[0]
+        self.im_range = (float(data.im.min()), float(data.im.max()))
+        self.p_shared = math.nan
+        if isinstance(model, Exceedance):
+            self.p_shared, alone = model.shared_dispersion()
+            if self.p_shared < _UNLIKELY:
+                each = ", ".join(f"{n} {b:.2f}" for n, b in zip(data.labels, alone))
+                warnings.warn(
+                    f"Fragility.fit: the thresholds share a dispersion of {self.beta[0]:.2f}, and"
+                    f" their responses contradict it (p = {self.p_shared:.1g}): alone they have"
+                    f" {each}; separate=True gives each its own",
+                    RuntimeWarning,
+                    stacklevel=3,
+                )
+        outside = self._outside()
+        if outside:
+            warnings.warn(
+                f"Fragility.fit: extrapolated: {outside}; add ground motions that reach there",
+                RangeWarning,
+                stacklevel=3,
+            )
         for label, median in zip(data.labels, self.median):
             if math.isinf(median):
                 warnings.warn(
@@ -140,14 +174,18 @@ class Fragility(Tabular):
             by the column `record` of the metadata if there is one.
         im : str or callable
             A column of the metadata of the table; one of 'pga_g' [g], 'pgv', 'arias' and 'cav'
-            [m/s], computed from the ground motions; or a function of a GroundMotion.
+            [m/s], or 'sa(1.0)', the pseudo-acceleration at 1 s and 5 % damping [g], computed from
+            the ground motions; or a function of a GroundMotion. Of sliders in the plane, a measure
+            is RotD50, the median over all directions; of stripes, whatever `stripes` scaled:
+            `im_directions` says which.
         thresholds : float, list of float, or ss.impact
             Displacements [m], positive, increasing; or hitting a stop.
         quantity : {'peak', 'residual', 'sliding_distance'}
             The displacement.
         separate : bool, optional
             Fit a dispersion for each threshold. By default they share one, so that the curves of
-            different thresholds do not cross. Not for 'cloud', whose curves never cross.
+            different thresholds do not cross, and a test says where the responses contradict it.
+            Not for 'cloud', whose curves never cross.
         method : {'lognormal', 'logit', 'cloud'}
         censored_below : float, optional
             Under 'cloud', displacements above zero and below this one [m] are left-censored: the
@@ -161,21 +199,26 @@ class Fragility(Tabular):
         ------
         ValueError
             An unbounded fit: all or no responses exceed a threshold, or the intensity separates
-            those that do from the others; an intensity measure that the table lacks, or that is
-            zero; a threshold at or beyond a stop; an argument out of range.
+            those that do from the others; an intensity measure that the table lacks, as one from a
+            file lacks those of pairs, or that is zero; a threshold at or beyond a stop; an argument
+            out of range.
         ImportError
             SciPy is missing.
 
         Warns
         -----
+        RangeWarning
+            A median or an HCLPF lies beyond the intensities of the ground motions.
         RuntimeWarning
             Responses failed, and are left out; a median is infinite, because under 'cloud' no
-            intensity makes the slider exceed the threshold half of the time.
+            intensity makes the slider exceed the threshold half of the time; the thresholds share a
+            dispersion although that is improbable: p is below 0.01 in a likelihood-ratio test that
+            allows for responses to one record being alike (Rao and Scott 1984).
 
         Examples
         --------
         >>> import stickslip as ss
-        >>> stripes = ss.sample_records().stripes(pga_g=[0.2, 0.4, 0.8])
+        >>> stripes = ss.sample_records().stripes(pga_g=[0.1, 0.2, 0.4, 0.8, 1.6])
         >>> mu = ss.Random(ss.Coulomb, mu=ss.Lognormal(median=0.2, beta=0.3))
         >>> table = ss.sweep(mu, stripes, members=50, seed=1)
         >>> f = ss.Fragility.fit(table, im="pga_g", thresholds=[0.02, 0.1])
@@ -236,6 +279,7 @@ class Fragility(Tabular):
         *,
         samples: SupportsIndex = 1000,
         seed: SupportsIndex = 0,
+        progress: bool | Progress = False,
     ) -> Bands:
         """Confidence bands, by resampling records.
 
@@ -253,6 +297,9 @@ class Fragility(Tabular):
         samples : int, optional
             Number of samples, at least 100.
         seed : int, optional
+        progress : bool or callable, optional
+            True shows a progress bar on stderr, as for `sweep`; a callable is called with the
+            number of samples done and their total.
 
         Returns
         -------
@@ -296,7 +343,9 @@ class Fragility(Tabular):
             raise ValueError(f"Fragility.bands: im must be at least 0, got {where.min():g}")
         rng = np.random.default_rng(whole_number(seed, "Fragility.bands: seed", 0))
         weights = rng.multinomial(records, np.full(records, 1 / records), size=count).astype(float)
-        found = self._model.estimate(weights)
+        with shown(progress, who="Fragility.bands", things="resamples") as show:
+            found = self._model.estimate(weights, show)
+            show(count, count)
         wide = math.sqrt(records / (records - 1)) * stats.t.ppf((1 + level) / 2, records - 1)
         ends = [stats.norm.cdf(-wide), stats.norm.cdf(wide)]
         if ends[0] * count < 1:
@@ -362,6 +411,25 @@ class Fragility(Tabular):
         """The thresholds as text, such as '0.1 m'."""
         return self._data.labels
 
+    @property
+    def extrapolated(self) -> NDArray[np.bool_]:
+        """Whether median and HCLPF are outside `im_range`, shape (T, 2)."""
+        low, high = self.im_range
+        values = np.stack([self.median, self.hclpf], axis=1)
+        outside: NDArray[np.bool_] = (values < low) | (values > high)
+        return outside
+
+    def _outside(self) -> str:
+        """What is outside `im_range`, as a text; empty if nothing is."""
+        found = [
+            f"{name} of {', '.join(n for n, beyond in zip(self.labels, column) if beyond)}"
+            for name, column in zip(("median", "HCLPF"), self.extrapolated.T)
+            if column.any()
+        ]
+        low, high = self.im_range
+        where = f" outside {low:.4g} to {high:.4g} {self.im_unit}".rstrip()
+        return " and ".join(found) + where if found else ""
+
     def grid(self) -> NDArray[np.float64]:
         """101 intensities over which the curves rise, shape (101,)."""
         low, high = (self._model.quantile(self._found, p) for p in (0.001, 0.999))
@@ -399,6 +467,8 @@ class Fragility(Tabular):
         -----
         RuntimeWarning
             More than 10 % of a rate comes from beyond the points of the hazard curve.
+        RangeWarning
+            More than 10 % of a rate comes from beyond the intensities of the ground motions.
         """
         from .hazard import exceedances
 
@@ -461,6 +531,8 @@ class Fragility(Tabular):
     ) -> Figure | Axes:
         """Plot the curves with their bands, and the fractions of responses that exceed.
 
+        Curves are dashed beyond the intensities of the ground motions.
+
         Parameters
         ----------
         level : float, optional
@@ -513,7 +585,14 @@ class Fragility(Tabular):
         columns: dict[str, NDArray[Any]] = {
             "threshold": np.array(self.thresholds if numbers else self.labels),
             **{name: getattr(self, name) for name in names},
+            "extrapolated": np.array(
+                [
+                    " ".join(n for n, out in zip(("median", "hclpf"), row) if out)
+                    for row in self.extrapolated
+                ]
+            ),
             "im": np.full(len(self.thresholds), self.im),
+            "im_directions": np.full(len(self.thresholds), self.im_directions),
             "method": np.full(len(self.thresholds), self.method),
         }
         units = {"threshold": "m" if numbers else "", "median": self.im_unit, "hclpf": self.im_unit}
@@ -525,4 +604,11 @@ class Fragility(Tabular):
             f"{label}: {median:.3g}{unit} (beta {beta:.2f})"
             for label, median, beta in zip(self.labels, self.median, self.beta)
         )
-        return f"<Fragility by {self.im}: {curves}>"
+        outside = self._outside()
+        note = f"; extrapolated: {outside}" if outside else ""
+        return f"<Fragility by {self._measure()}: {curves}{note}>"
+
+    def _measure(self) -> str:
+        """The intensity measure as a text, such as 'RotD50 of pga_g'."""
+        at = "" if self.im_period is None else f" at {self.im_period:g} s"
+        return f"{OF_DIRECTIONS.get(self.im_directions, '')}{self.im}{at}"

@@ -10,7 +10,7 @@ import re
 import warnings
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,6 +20,7 @@ from .._numbers import real, reals
 from .._optional import optional
 from .._tables import Columns
 from .._tabular import Tabular
+from ..regressions import RangeWarning
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -27,10 +28,11 @@ if TYPE_CHECKING:
 
     from .fragility import Fragility
 
-__all__ = ["Exceedances", "Hazard", "exceedances", "read_hazard"]
+__all__ = ["MUCH_BEYOND", "Exceedances", "Hazard", "exceedances", "read_hazard"]
 
 Array = NDArray[np.float64]
-_MUCH_BEYOND = 0.1  # share of a rate from beyond the points that is worth a warning
+_BLANKS = str.maketrans(",;", "  ")
+MUCH_BEYOND = 0.1  # share of a rate from beyond what is known that is worth a warning
 # Short names and units of the measures in hazard files, and factors: PGV is in cm/s there, CAV in
 # g s.
 _MEASURES = {
@@ -171,11 +173,16 @@ class Exceedances(Tabular):
     beyond : ndarray, shape (T,)
         The fraction of the rate that comes from intensities below the first point of the hazard
         curve or above its last one.
+    extrapolated : ndarray, shape (T,)
+        The fraction that comes from beyond `Fragility.im_range`, the intensities of the ground
+        motions.
     """
 
-    def __init__(self, fragility: Fragility, hazard: Hazard, rate: Array, beyond: Array) -> None:
+    def __init__(
+        self, fragility: Fragility, hazard: Hazard, rate: Array, beyond: Array, extrapolated: Array
+    ) -> None:
         self.fragility, self.hazard = fragility, hazard
-        self.rate, self.beyond = rate, beyond
+        self.rate, self.beyond, self.extrapolated = rate, beyond, extrapolated
 
     def probability(self, years: float) -> NDArray[np.float64]:
         """The probability of at least one exceedance in a time, 1 - exp(-rate years).
@@ -199,12 +206,14 @@ class Exceedances(Tabular):
 
     def _table(self) -> tuple[Columns, Mapping[str, str]]:
         columns, units = self.fragility._table()
-        first = {"threshold": columns["threshold"]}
-        return {**first, "rate": self.rate, "beyond": self.beyond}, {**units, "rate": "1/year"}
+        own = {name: getattr(self, name) for name in ("rate", "beyond", "extrapolated")}
+        return {"threshold": columns["threshold"], **own}, {**units, "rate": "1/year"}
 
     def __repr__(self) -> str:
         rates = ", ".join(
-            f"{label}: {rate:.3g}/year" for label, rate in zip(self.fragility.labels, self.rate)
+            f"{label}: {rate:.3g}/year"
+            + (f" ({100 * share:.0f} % extrapolated)" if share > MUCH_BEYOND else "")
+            for label, rate, share in zip(self.fragility.labels, self.rate, self.extrapolated)
         )
         return f"<Exceedances: {rates}>"
 
@@ -262,15 +271,20 @@ def exceedances(fragility: Fragility, hazard: Hazard) -> Exceedances:
             f" {fragility.im_unit}"
         )
     _check_bounded(fragility, hazard)
-    if fragility.method == "lognormal":
-        parts = _lognormal_pieces(fragility, hazard)
-    else:
-        parts = _pieces_by_quadrature(fragility, hazard)
+    pieces = _pieces(hazard, fragility.im_range)
+    by = _lognormal_rates if fragility.method == "lognormal" else _rates_by_quadrature
+    parts = by(fragility, pieces)
     rate = parts.sum(axis=1)
-    outside = parts[:, 0] + parts[:, -1]
-    beyond = np.divide(outside, rate, out=np.zeros_like(rate), where=rate > 0)
+
+    def share_outside(low: float, high: float) -> Array:
+        outside = (pieces.high <= math.log(low)) | (pieces.low >= math.log(high))
+        return np.divide(
+            parts[:, outside].sum(axis=1), rate, out=np.zeros_like(rate), where=rate > 0
+        )
+
+    beyond = share_outside(hazard.im[0], hazard.im[-1])
     for label, share in zip(fragility.labels, beyond):
-        if share > _MUCH_BEYOND:
+        if share > MUCH_BEYOND:
             warnings.warn(
                 f"Fragility.rate_of_exceedance: {100 * share:.0f} % of the rate for {label} comes"
                 f" from beyond the points of the hazard curve, {hazard.im[0]:g} to"
@@ -278,7 +292,21 @@ def exceedances(fragility: Fragility, hazard: Hazard) -> Exceedances:
                 RuntimeWarning,
                 stacklevel=3,
             )
-    return Exceedances(fragility, hazard, rate, beyond)
+    extrapolated = share_outside(*fragility.im_range)
+    if (extrapolated > MUCH_BEYOND).any():
+        low, high = fragility.im_range
+        shares = ", ".join(
+            f"{100 * share:.0f} % of the rate for {label}"
+            for label, share in zip(fragility.labels, extrapolated)
+            if share > MUCH_BEYOND
+        )
+        warnings.warn(
+            f"Fragility.rate_of_exceedance: extrapolated: {shares} comes from outside the ground"
+            f" motions, {low:.4g} to {high:.4g} {fragility.im_unit}".rstrip(),
+            RangeWarning,
+            stacklevel=3,
+        )
+    return Exceedances(fragility, hazard, rate, beyond, extrapolated)
 
 
 def _check_bounded(fragility: Fragility, hazard: Hazard) -> None:
@@ -303,26 +331,37 @@ def _logistic_tails(fragility: Fragility) -> Array:
     return tails
 
 
-def _ends(hazard: Hazard) -> tuple[Array, Array, Array, Array]:
-    """Begin and end in ln IM, slope, and ln rate at ln IM = 0, of each piece and both tails."""
+class _Pieces(NamedTuple):
+    """Pieces of a hazard curve: begin and end in ln IM, slope, and ln rate at ln IM = 0."""
+
+    low: Array
+    high: Array
+    k: Array
+    h: Array
+
+
+def _pieces(hazard: Hazard, cuts: tuple[float, float]) -> _Pieces:
+    """The pieces between the points and both tails, divided at other intensities, too."""
     u = np.log(hazard.im)
     k = hazard.slopes
     k = np.concatenate([k[:1], k, k[-1:]])
     corner = np.concatenate([u[:1], u[:-1], u[-1:]])
     height = np.log(np.concatenate([hazard.rate[:1], hazard.rate[:-1], hazard.rate[-1:]]))
-    low, high = np.concatenate([[-np.inf], u]), np.concatenate([u, [np.inf]])
-    return low, high, k, height + k * corner
+    edges = np.union1d(u, np.log(cuts))
+    edges = np.concatenate([[-np.inf], edges, [np.inf]])
+    of = np.searchsorted(u, edges[:-1], side="right")
+    return _Pieces(edges[:-1], edges[1:], k[of], (height + k * corner)[of])
 
 
-def _lognormal_pieces(fragility: Fragility, hazard: Hazard) -> Array:
-    """The rate from each piece of the hazard curve, shape (T, N + 1), in closed form.
+def _lognormal_rates(fragility: Fragility, pieces: _Pieces) -> Array:
+    """The rate from each piece of the hazard curve, shape (T, pieces), in closed form.
 
     With the rate exp(h - k u) of u = ln IM, and the median m = ln theta, the integral of
     Phi((u - m)/beta) k exp(h - k u) du is, by parts,
         -exp(h - k u) Phi((u - m)/beta) + exp(h - k m + k^2 beta^2/2) Phi((u - m)/beta + k beta).
     """
     special = optional("scipy.special", "risk", "Fragility.rate_of_exceedance")
-    low, high, k, h = _ends(hazard)
+    low, high, k, h = pieces
     m, beta = np.log(fragility.median)[:, np.newaxis], fragility.beta[:, np.newaxis]
     # ln of exp(h - k m + k^2 beta^2/2), which may exceed the doubles that its factor makes small.
     scale = h - k * m + (k * beta) ** 2 / 2
@@ -342,14 +381,14 @@ def _lognormal_pieces(fragility: Fragility, hazard: Hazard) -> Array:
     return np.where(k > 0, result, 0.0)
 
 
-def _pieces_by_quadrature(fragility: Fragility, hazard: Hazard) -> Array:
-    """The rate from each piece of the hazard curve, shape (T, N + 1), for curves of any form.
+def _rates_by_quadrature(fragility: Fragility, pieces: _Pieces) -> Array:
+    """The rate from each piece of the hazard curve, shape (T, pieces), for curves of any form.
 
     Gauss's rule with 8 points on parts of at most 0.1 in ln IM. The lower tail ends 10 in ln IM
     below a probability of 0.001, the upper one where the rate has fallen by 1e-16. Below the lower
     end a logistic curve is a power of IM, and its share has a closed form; a cloud is normal there.
     """
-    low, high, k, h = _ends(hazard)
+    low, high, k, h = (part.copy() for part in pieces)
     grid = np.log(fragility.grid())
     low[0], high[-1] = min(grid[0] - 10, high[0]), max(grid[-1] + 1, low[-1] + 37 / k[-1])
     nodes, weights = np.polynomial.legendre.leggauss(8)
@@ -494,7 +533,7 @@ def _is_number(cell: str) -> bool:
 def _from_columns(text: str, years: float | None) -> Hazard:
     rows: list[list[float]] = []
     for number, line in enumerate(text.splitlines(), 1):
-        cells = [cell for cell in re.split(r"[,;\s]+", line.strip()) if cell]
+        cells = line.translate(_BLANKS).split()
         if not cells or cells[0].startswith(("#", "%")):
             continue
         if not rows and not any(map(_is_number, cells)):
@@ -578,6 +617,8 @@ def _from_usgs(text: str, imt: str | None, usual: str) -> Hazard:
         document = json.loads(text)
     except json.JSONDecodeError as error:
         raise ValueError(f"is no JSON document: {error}") from error
+    except RecursionError:
+        raise ValueError("is nested too deeply for the JSON of the USGS hazard tool") from None
     try:
         found = _curves_of_usgs(document)
     except (AttributeError, KeyError, TypeError):  # another document

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .._core import GroundMotion, to_vector
 from .._numbers import real
-from ..motions.intensity import LEVEL_UNITS, level_of
+from ..motions.intensity import DIRECTIONS, LEVEL_UNITS, level_of
 from ..sweeps.table import SweepTable
 
 __all__ = ["Event", "Measure", "Observations", "impact", "measured", "observe", "records_of"]
@@ -33,6 +34,9 @@ impact = Event.impact
 # Columns of numbers that no displacement grows with.
 _NO_INTENSITIES = ("year", "stripe", "factor", "sa_period", "latitude", "longitude", "dt")
 
+_FUNCTION = "function of the motion"
+_SPECTRAL = re.compile(r"sa(?:_g)?\(\s*(\d*\.?\d+(?:e-?\d+)?)\s*s?\s*\)", re.IGNORECASE)
+
 Measure: TypeAlias = str | Callable[[GroundMotion], float]
 
 
@@ -44,7 +48,7 @@ class Observations:
     ----------
     im : ndarray, shape (M,)
         Intensity measure of each motion, positive.
-    im_name, im_unit : str
+    im_name, im_unit, im_directions : str
     record : ndarray of int, shape (M,)
         Number of the record of each motion, from 0 to R - 1.
     displacement : ndarray, shape (J, M, P)
@@ -57,6 +61,7 @@ class Observations:
     im_name: str
     im_unit: str
     im_period: float | None
+    im_directions: str
     record: NDArray[np.intp]
     displacement: NDArray[np.float64]
     thresholds: tuple[float | Event, ...]
@@ -74,58 +79,121 @@ class Observations:
         )
 
 
-def measured(table: SweepTable, im: Measure, who: str) -> tuple[NDArray[np.float64], str, str]:
-    """The intensity measure of each motion, its name and its unit.
+class Measured(NamedTuple):
+    """An intensity measure of each motion."""
+
+    values: NDArray[np.float64]
+    name: str
+    unit: str
+    period: float | None = None
+    directions: str = ""  # over which it is taken; unknown of columns and functions of users
+
+
+def measured(table: SweepTable, im: Measure, who: str) -> Measured:
+    """The intensity measure of each motion.
 
     Raises
     ------
     ValueError
         A measure that the table lacks, or that is not positive and finite for each motion.
     """
-    if not callable(im) and not isinstance(im, str):
+    if callable(im):
+        found = _by_function(table, im, who)
+    elif isinstance(im, str):
+        found = _by_name(table, im, who)
+    else:
         raise TypeError(
             f"{who}: im must be the name of a column or a function of a motion, got"
             f" {type(im).__name__}"
         )
-    if callable(im):
-        if not table.motions:
-            raise ValueError(
-                f"{who}: a function of a motion needs the ground motions, which a table from a file"
-                " lacks; give the suite a column before the sweep: suite.with_metadata({'sa': ...})"
-            )
-        name = getattr(im, "__name__", "im")
-        name, unit = ("im" if name == "<lambda>" else name), ""
-        values = np.array([real(im(motion), f"{who}: im of a motion") for motion in table.motions])
-    else:
-        name, unit = str(im), LEVEL_UNITS.get(str(im), "")
-        column = table.metadata.get(name)
-        if column is not None and column.dtype.kind in "iuf":
-            values = np.array(column, float)
-        elif name in LEVEL_UNITS and name != "sa_g" and table.motions:
-            values = np.array([level_of(motion, name) for motion in table.motions])
-        else:
-            numbers = [
-                n
-                for n, c in table.metadata.items()
-                if c.dtype.kind in "iuf" and n not in _NO_INTENSITIES
-            ]
-            if table.motions:
-                numbers += [n for n in LEVEL_UNITS if n != "sa_g" and n not in numbers]
-            raise ValueError(
-                f"{who}: im must be a column with numbers, which '{name}' is not, or a function of"
-                f" a motion; the table has {', '.join(numbers) or 'none'}"
-            )
-    stripe = table.metadata.get("stripe")
-    known = stripe is not None and stripe.dtype.kind in "iuf"
-    if known and np.allclose(values, stripe, rtol=1e-9, atol=0):  # type: ignore[arg-type]
-        values = np.array(stripe, float)  # without the round-off of scaling
-    wrong = np.flatnonzero(~(np.isfinite(values) & (values > 0)))
+    wrong = np.flatnonzero(~(np.isfinite(found.values) & (found.values > 0)))
     if wrong.size:
         raise ValueError(
-            f"{who}: {name} must be positive and finite for each motion, got {values[wrong[0]]:g}"
-            f" for '{table.records[wrong[0]]}'"
+            f"{who}: {found.name} must be positive and finite for each motion, got"
+            f" {found.values[wrong[0]]:g} for '{table.records[wrong[0]]}'"
         )
-    return values, name, unit
+    stripe = _numbers(table, "stripe")
+    if stripe is not None and np.allclose(found.values, stripe, rtol=1e-9, atol=0):
+        return found._replace(values=stripe)  # without the round-off of scaling
+    return found
+
+
+def _by_function(table: SweepTable, im: Callable[[GroundMotion], float], who: str) -> Measured:
+    if not table.motions:
+        raise ValueError(
+            f"{who}: a function of a motion needs the ground motions, which a table from a file"
+            " lacks; give the suite a column before the sweep: suite.with_metadata({'sa': ...})"
+        )
+    name = getattr(im, "__name__", "<lambda>")
+    values = np.array([real(im(motion), f"{who}: im of a motion") for motion in table.motions])
+    return Measured(values, _FUNCTION if name == "<lambda>" else name, "")
+
+
+def _by_name(table: SweepTable, im: str, who: str) -> Measured:
+    spectral = _SPECTRAL.fullmatch(im)
+    name, period = ("sa_g", float(spectral[1])) if spectral else (im, None)
+    unit = LEVEL_UNITS.get(name, "")
+    striped = _striped(table)
+    if striped is not None and name == striped.name and period in (None, striped.period):
+        return striped
+    column = None if spectral else _numbers(table, name)
+    if name != "pga_g" and column is not None:
+        return Measured(column, name, unit, _period(table, name))
+    directions = _directions(table)
+    if name == "pga_g" and column is not None and directions == "axis":
+        return Measured(column, name, unit, None, directions)
+    if name in LEVEL_UNITS and (name != "sa_g" or spectral) and table.motions:
+        values = np.array([level_of(m, name, period, 0.05, directions) for m in table.motions])
+        return Measured(values, name, unit, period, directions)
+    if name == "pga_g" and column is not None:
+        raise ValueError(
+            f"{who}: the {directions} of pga_g needs the ground motions, which a table from a file"
+            " lacks; scale pairs by stripes, or give the suite a column before the sweep:"
+            " suite.with_metadata({'pga': ...})"
+        )
+    numbers = [n for n in table.metadata if n not in _NO_INTENSITIES]
+    numbers = [n for n in numbers if _numbers(table, n) is not None]
+    if table.motions:
+        numbers += [n for n in LEVEL_UNITS if n != "sa_g" and n not in numbers] + ["sa(period)"]
+    raise ValueError(
+        f"{who}: im must be a column with numbers, which '{im}' is not, or a function of a motion;"
+        f" the table has {', '.join(numbers) or 'none'}"
+    )
+
+
+def _numbers(table: SweepTable, name: str) -> NDArray[np.float64] | None:
+    """A column of numbers, or None."""
+    column = table.metadata.get(name)
+    return None if column is None or column.dtype.kind not in "iuf" else np.array(column, float)
+
+
+def _period(table: SweepTable, name: str) -> float | None:
+    """The period of a column, which stripes of pseudo-accelerations state."""
+    at = _numbers(table, "sa_period") if name == "sa_g" else None
+    return None if at is None else float(at[0])
+
+
+def _directions(table: SweepTable) -> str:
+    """What the measures of the motions are of: those of stripes, otherwise RotD50 in the plane."""
+    stated = table.metadata.get("directions")
+    if stated is not None:
+        return next((one for one in stated.tolist() if one in DIRECTIONS), "axis")
+    pairs = not table.motions or any(m.transverse is not None for m in table.motions)
+    return "rotd50" if table.planar and pairs else "axis"
+
+
+def _striped(table: SweepTable) -> Measured | None:
+    """The measure of which stripes are levels, or None."""
+    stripe = _numbers(table, "stripe")
+    if stripe is None:
+        return None
+    for name in ("pgv", "arias", "sa_g"):
+        if np.array_equal(stripe, table.metadata.get(name, ())):
+            about = (LEVEL_UNITS[name], _period(table, name), _directions(table))
+            return Measured(stripe, name, *about)
+    if "directions" in table.metadata:
+        return Measured(stripe, "pga_g", LEVEL_UNITS["pga_g"], None, _directions(table))
+    return None  # a column `pga_g` holds it
 
 
 def records_of(table: SweepTable) -> NDArray[np.intp]:
@@ -150,8 +218,7 @@ def observe(
     ValueError
         An intensity measure, thresholds or a quantity that cannot be used.
     """
-    values, name, unit = measured(table, im, who)
-    period = table.metadata.get("sa_period") if name == "sa_g" else None
+    found = measured(table, im, who)
     given: tuple[Any, ...] = (
         (thresholds,)
         if isinstance(thresholds, Event) or np.ndim(thresholds) == 0  # type: ignore[arg-type]
@@ -178,10 +245,11 @@ def observe(
             stacklevel=3,
         )
     return Observations(
-        im=values,
-        im_name=name,
-        im_unit=unit,
-        im_period=None if period is None else float(period[0]),
+        im=found.values,
+        im_name=found.name,
+        im_unit=found.unit,
+        im_period=found.period,
+        im_directions=found.directions,
         record=records_of(table),
         displacement=response,
         thresholds=limits,

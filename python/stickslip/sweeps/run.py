@@ -11,6 +11,8 @@ from collections.abc import Iterable, Sequence
 from concurrent.futures import Executor
 from typing import Any, Literal, SupportsIndex
 
+import numpy as np
+
 from .. import _core
 from .._core import (
     Caster,
@@ -215,6 +217,7 @@ def sweep(
                 _Parts(executor, these, those, how, table, keeper).run(show)
             keeper.save(table)
     table.motions = tuple(those)
+    table.remark = _linear_remark(table, these)
     if table.failures:
         first = table.failures[0]
         warnings.warn(
@@ -225,13 +228,26 @@ def sweep(
             stacklevel=2,
         )
     elif not table.peak.any() and not isinstance(these[0], _STRUCTURES):
-        warn_of_units("sweep", these, those)
+        table.remark = warn_of_units("sweep", these, those)
     return table
 
 
 def _interface(swept: AnySwept) -> Any:
     """What slides: the slider of a structure."""
     return getattr(swept, "slider", swept)
+
+
+def _linear_remark(table: SweepTable, sliders: Sequence[AnySwept]) -> str:
+    """`Response.remark` on the slider that leaves its linear range by the largest peak; or ''."""
+    peaks = np.nan_to_num(table.peak).max(axis=(1, 2))
+    found = {}
+    for i, one in enumerate(sliders):
+        if remark := _core._linear_remark(_interface(one), peaks[i]):
+            found[i] = remark
+    if not found:
+        return ""
+    worst = max(found, key=lambda i: peaks[i])
+    return f"{len(found)} of {len(sliders)} sliders: as slider {worst}, {found[worst]}"
 
 
 def _kind(swept: AnySwept) -> str:

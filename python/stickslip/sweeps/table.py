@@ -115,6 +115,9 @@ class SweepTable(Tabular, Saved):
         What sliders do when they lose contact with the ground.
     failures : tuple of SweepFailure
         Combinations that failed.
+    remark : str
+        A sentence about limits of the results, once for all; empty if there are none: pendulums
+        beyond their linear range; or nothing slips, but would if accelerations were in g.
 
     Notes
     -----
@@ -151,6 +154,7 @@ class SweepTable(Tabular, Saved):
         airborne: ArrayLike | None = None,
         components: Mapping[str, ArrayLike] | None = None,
         impacts: Mapping[str, ArrayLike] | None = None,
+        remark: str = "",
     ) -> None:
         self.sliders = tuple(sliders)
         self.parameters = {name: as_column(values) for name, values in parameters.items()}
@@ -159,6 +163,7 @@ class SweepTable(Tabular, Saved):
         self.polarity = tuple(polarity)
         self.settle = bool(settle)
         self.contact = str(contact)
+        self.remark = str(remark)
         self.failures = tuple(SweepFailure(*one) for one in failures)
         self.peak: NDArray[np.float64] = np.array(peak, float)
         self.residual: NDArray[np.float64] = np.array(residual, float)
@@ -310,7 +315,8 @@ class SweepTable(Tabular, Saved):
 
     def __repr__(self) -> str:
         sliders, records, polarities = self.peak.shape
-        return f"SweepTable({sliders} sliders, {records} records, {polarities} polarities)"
+        remark = f"; {self.remark}" if self.remark else ""
+        return f"SweepTable({sliders} sliders, {records} records, {polarities} polarities{remark})"
 
     # ---- statistics over records and polarities
 
@@ -403,13 +409,14 @@ class SweepTable(Tabular, Saved):
         Returns
         -------
         str
-            An object: `format`; `sliders`, `records`, `polarity`, `settle`, `contact`; `parameters`
-            and `metadata`, by name a list with a value for each slider or record; `units` of the
-            quantities; `peak`, `residual`, `sliding_distance`, `events` and `airborne`, with stops
-            also `impacts_forward`, `impact_speed_forward` and the same backward (in the plane also
-            `residual_axis` and `residual_transverse`, and with stops `impacts` and `impact_speed`),
-            each a list over sliders of lists over records of lists over polarities; `failures`,
-            each with `slider` and `record` (counted from 0), `polarity` and `message`.
+            An object: `format`; `sliders`, `records`, `polarity`, `settle`, `contact`, `remark`;
+            `parameters` and `metadata`, by name a list with a value for each slider or record;
+            `units` of the quantities; `peak`, `residual`, `sliding_distance`, `events` and
+            `airborne`, with stops also `impacts_forward`, `impact_speed_forward` and the same
+            backward (in the plane also `residual_axis` and `residual_transverse`, and with stops
+            `impacts` and `impact_speed`), each a list over sliders of lists over records of lists
+            over polarities; `failures`, each with `slider` and `record` (counted from 0),
+            `polarity` and `message`.
 
         Notes
         -----
@@ -421,6 +428,7 @@ class SweepTable(Tabular, Saved):
             "format": self._format,
             "settle": self.settle,
             "contact": self.contact,
+            "remark": self.remark,
             **{name: getattr(self, name) for name in ("sliders", "records", "polarity")},
             **{
                 name: {key: _listed(column) for key, column in getattr(self, name).items()}
@@ -473,6 +481,7 @@ class SweepTable(Tabular, Saved):
                 impacts=document if {"impacts_forward", "impacts"} & document.keys() else None,
                 settle=document["settle"],
                 contact=document["contact"],
+                remark=document.get("remark", ""),
                 failures=[
                     SweepFailure(*(one[name] for name in SweepFailure._fields))
                     for one in document["failures"]
@@ -551,6 +560,7 @@ class SweepTable(Tabular, Saved):
     def _write(self, h5: Any) -> None:
         h5.attrs["settle"] = int(self.settle)
         h5.attrs["contact"] = self.contact
+        h5.attrs["remark"] = self.remark
         h5.attrs["failures"] = json.dumps([list(one) for one in self.failures])
         for axis, name in _AXES.items():
             write(h5, axis, getattr(self, name)).make_scale(axis)
@@ -574,6 +584,7 @@ class SweepTable(Tabular, Saved):
         about: dict[str, Any] = {
             "settle": bool(h5.attrs["settle"]),
             "contact": h5.attrs["contact"],
+            "remark": h5.attrs.get("remark", ""),
             "failures": json.loads(h5.attrs["failures"]),
         }
         axes = {name: read(h5, axis) for axis, name in _AXES.items()}

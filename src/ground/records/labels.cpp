@@ -61,8 +61,8 @@ std::string kind_of_value(const std::vector<std::string_view>& words) {
       {"a period", {"period"}},
       {"a frequency", {"freq", "hz"}},
       {"a spectral value",
-       {"sa", "se", "psa", "sv", "psv", "sd", "fas", "psd", "fft", "spectr", "fourier", "response", "rotd", "sagm",
-        "damping"}},
+       {"sa", "sah", "sav", "se", "psa", "sv", "psv", "sd", "fas", "psd", "fft", "spectr", "fourier", "response",
+        "rotd", "gmrot", "sagm", "damping"}},
       {"a peak", {"peak", "pga", "pgv", "pgd", "max", "maximum", "min", "minimum", "kmax"}},
       {"a level of yielding", {"ky", "yield", "critical", "threshold"}},
       {"a quantity of a response", {"friction", "spring", "damper", "slip"}},
@@ -171,7 +171,11 @@ bool set_unit(Label& label, std::string_view unit) {
 
 /// Sets quantity and seconds by the words of a label whose unit is known.
 void set_quantity(Label& label) {
-  const std::vector<std::string_view> words = words_of(label.name);
+  const std::vector<std::string_view> split = words_of(label.name);
+  std::vector<std::string_view> words = split;
+  for (std::string_view rest = label.name; !rest.empty();
+       rest.remove_prefix(std::min(rest.find_first_of(" _"), rest.size() - 1) + 1))
+    words.push_back(rest.substr(0, rest.find_first_of(" _0123456789")));  // RotD50, whatever its capitals
   const auto any = [&](Texts texts) {
     return std::ranges::any_of(words, [&](std::string_view word) { return is_one_of(word, texts); });
   };
@@ -183,6 +187,7 @@ void set_quantity(Label& label) {
   if (accelerates && !label.unit.empty() && is_one_of(other, {"a spectral value", "a frequency", "a period"}) &&
       !any({"spectral", "response", "psa"}))
     other.clear();
+  if (is_one_of(whole, {"s_a", "s_v", "s_d"})) other = "a spectral value";
   if (other.empty() && !accelerates) other = other_quantity(words);
   if (other.empty() && label.unit.empty() && is_one_of(whole, {"v(t)", "d(t)", "u(t)"}))
     other = "a velocity or a displacement";
@@ -208,6 +213,8 @@ void set_quantity(Label& label) {
   } else if (any({"time", "times", "zeit", "tiempo", "temps", "tempo", "zaman", "elapsed", "timestamp"}) ||
              is_one_of(whole, {"t", "s", "sec", "secs", "second", "seconds"})) {
     label.quantity = Quantity::time;
+    if (const auto seconds = find_time_unit(split.back()); split.size() > 1 && seconds)
+      label.seconds = *seconds;  // TimeMs
   } else if (const std::optional<double> seconds = find_time_unit(whole); seconds) {
     label.quantity = Quantity::time;
     label.seconds = *seconds;
@@ -346,23 +353,34 @@ void split_row(std::string_view row, std::vector<std::string_view>& fields) {
   }
 }
 
+std::vector<std::string_view> split_at(std::string_view line, std::string_view marks) {
+  std::vector<std::string_view> parts;
+  std::size_t begin = 0;
+  bool quoted = false;
+  for (std::size_t at = 0; at <= line.size(); ++at) {
+    if (at < line.size() && line[at] == '"') quoted = !quoted;
+    if (at < line.size() && (quoted || marks.find(line[at]) == std::string_view::npos)) continue;
+    parts.push_back(line.substr(begin, at - begin));
+    if (at < line.size() && line[at] != '\t')  // a mark, and blanks after it
+      while (at + 1 < line.size() && is_blank(line[at + 1])) ++at;
+    begin = at + 1;
+  }
+  return parts;
+}
+
+namespace {
+
+/// A label without its quotation marks.
+std::string_view unquoted(std::string_view text) {
+  text = trim(text);
+  return text.size() > 1 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2) : text;
+}
+
+}  // namespace
+
 std::vector<Label> labels_in(std::string_view line, std::size_t columns) {
   line = without_mark(line);
   // First at commas, semicolons and tabs, and at two blanks; then at each blank.
-  const auto at_marks = [&](std::string_view marks) {
-    std::vector<std::string_view> parts;
-    std::size_t begin = 0;
-    bool quoted = false;
-    for (std::size_t at = 0; at <= line.size(); ++at) {
-      if (at < line.size() && line[at] == '"') quoted = !quoted;
-      if (at < line.size() && (quoted || marks.find(line[at]) == std::string_view::npos)) continue;
-      parts.push_back(line.substr(begin, at - begin));
-      if (at < line.size() && line[at] != '\t')  // a mark, and blanks after it
-        while (at + 1 < line.size() && is_blank(line[at + 1])) ++at;
-      begin = at + 1;
-    }
-    return parts;
-  };
   const auto at_blanks = [&](std::size_t fewest) {
     std::vector<std::string_view> parts;
     std::size_t begin = 0, blanks = 0;
@@ -381,18 +399,32 @@ std::vector<Label> labels_in(std::string_view line, std::size_t columns) {
     return parts;
   };
   for (std::vector<std::string_view> parts :
-       {at_marks(",;\t"), at_marks(";"), at_marks("\t"), at_blanks(2), at_blanks(1)}) {
+       {split_at(line, ",;\t"), split_at(line, ";"), split_at(line, "\t"), at_blanks(2), at_blanks(1)}) {
     while (parts.size() > columns && trim(parts.back()).empty()) parts.pop_back();  // of a spreadsheet
     if (parts.size() != columns) continue;
     std::vector<Label> labels;
-    for (std::string_view part : parts) {
-      part = trim(part);
-      if (part.size() > 1 && part.front() == '"' && part.back() == '"') part = part.substr(1, part.size() - 2);
-      labels.push_back(label_of(part));
-    }
+    for (const std::string_view part : parts) labels.push_back(label_of(unquoted(part)));
     if (std::ranges::any_of(labels, [](const Label& label) { return label.is_recognized(); })) return labels;
   }
   return {};
+}
+
+bool is_level(std::string_view line, std::size_t columns) {
+  const std::vector<std::string_view> parts = split_at(line, ",;\t");
+  return parts.size() == columns && trim(parts[0]).empty() && !trim(line).empty();
+}
+
+std::vector<Label> labels_of_levels(const Lines& levels, std::size_t columns) {
+  std::vector<std::string> texts(columns);
+  for (const std::string_view level : levels) {
+    const std::vector<std::string_view> parts = split_at(level, ",;\t");
+    for (std::size_t k = 0; k < std::min(columns, parts.size()); ++k)
+      if (const std::string_view part = unquoted(parts[k]); !part.empty())
+        texts[k] += (texts[k].empty() ? "" : " ") + std::string(part);
+  }
+  std::vector<Label> labels;
+  for (const std::string& text : texts) labels.push_back(label_of(text));
+  return labels;
 }
 
 bool is_comment(std::string_view line) {

@@ -41,6 +41,15 @@ void split_row(std::string_view row, std::vector<std::string_view>& fields);
 /// The labels in a line, one for each column, or none: some of them must be recognized.
 std::vector<Label> labels_in(std::string_view line, std::size_t columns);
 
+/// The parts of a line that marks separate, with the blanks around them; within quotation marks nothing separates.
+std::vector<std::string_view> split_at(std::string_view line, std::string_view marks);
+
+/// Whether a line is a level of labels above others, which has none for the first column: `,KOBE,KOBE` of pandas.
+bool is_level(std::string_view line, std::size_t columns);
+
+/// The labels that levels make together: `acc`, `EW` and `m/s2` below each other are `acc EW m/s2`.
+std::vector<Label> labels_of_levels(const Lines& levels, std::size_t columns);
+
 /// The text of a line of comment or of the heading, without the mark of comments before it.
 std::string_view without_mark(std::string_view line);
 

@@ -196,7 +196,8 @@ void require_stated(const Channel& channel, const RecordOptions& options) {
                                      : "no units of acceleration and no time step";
   std::string remedy = units ? "" : "pass units, such as \"g\" or \"m/s^2\"";
   if (!step) remedy += std::string(units ? "" : ", and ") + "pass dt, the seconds between samples";
-  throw std::invalid_argument("the file states " + missing + ": " + remedy);
+  const std::string column = units || channel.label.empty() ? "" : ", column " + quote(channel.label);
+  throw std::invalid_argument("the file states " + missing + ": " + remedy + column);
 }
 
 /// m/s^2 per unit of the file.

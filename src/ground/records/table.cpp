@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -31,11 +32,19 @@
 namespace stickslip::records {
 namespace {
 
+/// The length of the number at the front of a text that holds nothing but numbers, as columns of a fixed width that run
+/// together: -9.2364-11.9725. Each but the last has a point, each but the first a sign. Otherwise 0.
+std::size_t first_of_run(std::string_view text) {
+  const std::size_t end = Numeral(text).end;
+  const bool has_point = text.substr(0, end).find('.') != std::string_view::npos;
+  return end == text.size() || (has_point && is_sign(text[end])) ? end : 0;
+}
+
 /// Whether a text begins as a number does, including NaN and infinity.
 bool is_numeral(std::string_view token) {
   const std::string_view word = token.substr(!token.empty() && is_sign(token[0]) ? 1 : 0);
-  return !token.empty() && (Numeral(token).end == token.size() || same(word.substr(0, 3), "nan") || same(word, "inf") ||
-                            same(word, "infinity"));
+  return !token.empty() &&
+         (first_of_run(token) > 0 || same(word.substr(0, 3), "nan") || same(word, "inf") || same(word, "infinity"));
 }
 
 /// Whether a line starts with a number.
@@ -54,6 +63,29 @@ bool has_word(std::string_view line) {
   });
 }
 
+/// Whether a line starts with a date: 2024-01-17T05:46, 17.01.2024.
+bool is_dated(std::string_view line) {
+  line = trim(line);
+  std::string_view token = line.substr(0, line.find_first_of(" \tT,;"));
+  const auto is_mark = [](char c) { return c == '-' || c == '/' || c == '.'; };
+  return token.size() >= 8 && token.size() <= 10 && std::ranges::count_if(token, is_mark) == 2 &&
+         std::ranges::count_if(token, is_digit) == static_cast<std::ptrdiff_t>(token.size()) - 2;
+}
+
+/// The first line of a table whose rows start with a text or an empty column: it follows labels, and ends with a number.
+/// The number of lines if there is none.
+std::size_t first_row_of_text(const Lines& lines) {
+  std::vector<std::string_view> fields;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    split_row(lines[i], fields);
+    if (fields.size() < 2 || !is_numeral(fields.back()) || is_comment(lines[i])) continue;
+    const std::vector<Label> labels = labels_in(lines[i - 1], fields.size());
+    if (std::ranges::any_of(labels, [](const Label& label) { return label.quantity == Quantity::acceleration; }))
+      return i;
+  }
+  return lines.size();
+}
+
 /// The first line that starts with a number, but for titles above a heading that has other lines below them.
 std::size_t first_row(const Lines& lines) {
   const auto find = [&](std::size_t from) {
@@ -67,7 +99,7 @@ std::size_t first_row(const Lines& lines) {
       break;  // rows with words among their numbers are damaged
     row = next;
   }
-  return row;
+  return row < lines.size() ? row : first_row_of_text(lines);
 }
 
 /// Whether commas are decimal points: columns are parted by something else, each comma is between digits, and no point
@@ -198,6 +230,11 @@ Heading heading_of(const Lines& lines, std::size_t rows, std::size_t columns) {
     if (std::exchange(labels_possible, false)) {
       heading.labels = labels_in(line, columns);
       heading.line = i;
+      if (i > 0 && is_level(lines[i - 1], columns)) {
+        while (i > 0 && is_level(lines[i - 1], columns)) --i;
+        const auto level = [&](std::size_t at) { return lines.begin() + static_cast<std::ptrdiff_t>(at); };
+        heading.labels = labels_of_levels({level(i), level(heading.line + 1)}, columns);
+      }
       // What stands above one column is a label only if it speaks of an acceleration, or is no comment.
       if (columns == 1 && is_comment(line) && !heading.labels.empty() &&
           heading.labels[0].quantity != Quantity::acceleration)
@@ -223,8 +260,10 @@ struct Columns {
   std::vector<std::size_t> acceleration{};
 };
 
-Columns columns_of(const Heading& heading, std::size_t count) {
+/// @param row  the fields of the first row
+Columns columns_of(const Heading& heading, const std::vector<std::string_view>& row) {
   Columns columns;
+  const std::size_t count = row.size();
   const bool by_column = heading.units.size() > 1 || (count == 1 && heading.units.size() == 1);
   // Where one column says that it is an acceleration, or states a unit of it, one that says nothing is none.
   const bool some =
@@ -232,6 +271,7 @@ Columns columns_of(const Heading& heading, std::size_t count) {
   std::string others;
   for (std::size_t k = 0; k < count; ++k) {
     Label label = heading.labels.empty() ? Label() : heading.labels[k];
+    if (!heading.labels.empty() && !label.is_recognized() && !is_numeral(row[k])) continue;  // a column of text
     const std::string& unit = by_column ? heading.units[k] : std::string();
     if (const std::string other = quantity_with_unit(unit); !other.empty()) {
       label.quantity = Quantity::other;
@@ -268,6 +308,15 @@ Columns columns_of(const Heading& heading, std::size_t count) {
 /// What a first column without a label holds.
 enum class First { times, row_numbers, acceleration };
 
+/// Whether a number of seconds is a usual step of records.
+bool is_usual_step(double seconds) { return seconds >= 0.0005 * (1 - 1e-9) && seconds <= 0.1 * (1 + 1e-9); }
+
+/// The digits behind the point of a number.
+std::size_t decimals(std::string_view number) {
+  const std::string_view mantissa = number.substr(0, Numeral(number).mantissa);
+  return mantissa.size() - std::min(mantissa.find('.'), mantissa.size());
+}
+
 /// Whether numbers count 0, 1, 2 or 1, 2, 3.
 bool counts_rows(const std::vector<double>& values) {
   bool counts = values.size() > 2 && (values[0] == 0 || values[0] == 1);
@@ -276,13 +325,11 @@ bool counts_rows(const std::vector<double>& values) {
 }
 
 First first_column(const std::vector<double>& values, const Resolution& printed) {
-  constexpr double shortest = 0.0005, longest = 0.1;  // steps of records [s]
   if (counts_rows(values)) return First::row_numbers;
   Channel even;
   if (!std::is_sorted(values.begin(), values.end(), std::less_equal<>())) return First::acceleration;
   set_times(even, values, printed.units());
-  const bool is_time = even.dt && *even.dt >= shortest * (1 - 1e-9) && *even.dt <= longest * (1 + 1e-9) &&
-                       std::abs(values[0]) <= 10 * *even.dt;
+  const bool is_time = even.dt && is_usual_step(*even.dt) && std::abs(values[0]) <= 10 * *even.dt;
   return is_time ? First::times : First::acceleration;
 }
 
@@ -325,7 +372,7 @@ std::vector<Channel> in_reading_order(const std::vector<std::vector<double>>& co
   const auto total = static_cast<double>(samples.size());
   if (first.empty() && samples.size() > 10 && (samples[0] == total - 1 || samples[0] == total - 2)) {
     const bool step = samples[0] == total - 2;
-    if (!step || (samples[1] >= 0.0005 && samples[1] <= 0.1)) {
+    if (!step || is_usual_step(samples[1])) {
       if (step && !channel.dt) channel.dt = samples[1];
       samples.erase(samples.begin(), samples.begin() + (step ? 2 : 1));
     }
@@ -359,7 +406,10 @@ bool is_table(const Lines& lines) {
   return first_row(lines) < lines.size() && !lines[0].starts_with("TIMESERIES ");
 }
 
-std::vector<Channel> read_table(const Lines& lines) {
+namespace {
+
+/// @param run_together  whether numbers follow each other without a blank
+std::vector<Channel> read_columns(const Lines& lines, bool run_together) {
   std::size_t rows = first_row(lines);
   for (std::size_t i = 0; i < rows; ++i)
     if (is_damaged_row(lines[i])) refuse_line(i, "expected finite numbers, got " + quote(lines[i]));
@@ -377,6 +427,16 @@ std::vector<Channel> read_table(const Lines& lines) {
       row = with_points;
     }
     split_row(row, fields);
+    if (!run_together) return;
+    std::vector<std::string_view> parts;
+    for (std::string_view field : fields) {
+      for (std::size_t end = first_of_run(field); end > 0 && end < field.size(); end = first_of_run(field)) {
+        parts.push_back(field.substr(0, end));
+        field.remove_prefix(end);
+      }
+      parts.push_back(field);
+    }
+    fields = std::move(parts);
   };
   const auto is_empty = [](std::string_view field) { return field.empty(); };
   /// Whether a line holds numbers; then `fields` are its columns, without empty ones at the end.
@@ -412,8 +472,35 @@ std::vector<Channel> read_table(const Lines& lines) {
     }
     take(rows);
   }
+  // A time step alone above lines of several numbers, or above as many decimals in every line of one.
+  std::optional<double> dt;
+  if (counts.empty() && fields.size() == 1 && top == rows) {
+    const std::string first(fields[0]);
+    std::string_view rest = first;
+    const std::optional<double> value = take_number(rest);
+    const std::size_t second = next(rows + 1);
+    if (value && rest.empty() && is_usual_step(*value) && second < lines.size()) {
+      if (fields.size() > 2) {
+        dt = value;
+        rows = second;
+      } else if (fields.size() == 1) {
+        const std::size_t places = decimals(fields[0]);
+        bool even = places > decimals(first);
+        for (std::size_t i = second, seen = 0; even && i < lines.size() && seen < 100; i = next(i + 1), ++seen)
+          even = decimals(fields[0]) == places;
+        if (even)
+          refuse_line(rows, quote(first) + " may be a time step or a sample: write 'dt = " + first +
+                                "', or a sample with as many decimals as the others");
+      }
+    }
+    take(rows);
+  }
   const std::size_t columns = fields.size();
   Heading heading = heading_of(lines, top, columns);
+  if (dt && !heading.size.dt) {
+    heading.size.dt = dt;
+    heading.size_line = top;
+  }
   // A title of as many words as there are columns is no line of labels: the first column plainly holds times.
   if (columns > 1 && !heading.labels.empty() && heading.labels[0].is_unclear() && !heading.has_times()) {
     std::vector<double> begin;
@@ -425,7 +512,8 @@ std::vector<Channel> read_table(const Lines& lines) {
     }
     if (first_column(begin, printed) == First::times) heading.labels.clear();
   }
-  Columns roles = columns_of(heading, columns);
+  take(rows);
+  Columns roles = columns_of(heading, fields);
 
   const auto hint = [&] {
     return columns > 2 ? std::string("; record_formats lists what agencies write") : std::string();
@@ -444,8 +532,12 @@ std::vector<Channel> read_table(const Lines& lines) {
       if (!used[k]) continue;
       std::string_view rest = fields[k];
       const std::optional<double> value = take_number(rest);
-      if (!value || !rest.empty())
-        refuse_line(i, "expected finite numbers, got " + quote(fields[k].empty() ? lines[i] : fields[k]));
+      if (!value || !rest.empty()) {
+        if (first_of_run(fields[k]) > 0 && !run_together) return read_columns(lines, true);
+        const bool dated = roles.time == k && is_dated(fields[k]);
+        refuse_line(i, (dated ? "times must be seconds, got the date " : "expected finite numbers, got ") +
+                           quote(fields[k].empty() ? lines[i] : fields[k]));
+      }
       values[k].push_back(*value);
     }
     if (clock < fields.size() && columns > 1) resolution.add(fields[clock]);
@@ -467,6 +559,10 @@ std::vector<Channel> read_table(const Lines& lines) {
   if (heading.labels.empty() && !roles.time) {
     if (first == First::acceleration) {
       // Two rows at least say whether columns are components.
+      for (std::size_t k = 1; k < columns && !ragged && values[0].size() > 2; ++k)
+        if (values[k] == values[k - 1])
+          refuse_line(rows, "columns " + std::to_string(k) + " and " + std::to_string(k + 1) +
+                                " are equal and have no labels: keep one of them");
       if (columns > 1 && values[0].size() > 2 && variation_ratio(values) > 1)
         refuse_line(rows,
                     "the first of " + std::to_string(columns) +
@@ -483,6 +579,13 @@ std::vector<Channel> read_table(const Lines& lines) {
     roles.acceleration.erase(roles.acceleration.begin());
   }
   if (count < 2) refuse_line(rows, "at least two rows of numbers are needed, got 1" + hint());
+  const auto is_negative = [](double value) { return value < 0; };
+  const auto has_signs = [&](std::size_t k) { return std::ranges::any_of(values[k], is_negative); };
+  if (roles.time && !heading.labels.empty() && heading.labels[*roles.time].name == "T" &&
+      !std::ranges::any_of(roles.acceleration, has_signs))
+    refuse_line(heading.line,
+                "T may be a period, and no acceleration is negative: if this is an acceleration history"
+                " and no spectrum, label its times t or time");
   std::vector<Channel> channels;
   for (const std::size_t k : roles.acceleration) {
     Channel channel{.title = heading.title, .acceleration = std::move(values[k])};
@@ -523,6 +626,13 @@ std::vector<Channel> read_table(const Lines& lines) {
     if (values[k] != values[*roles.time])
       refuse_line(heading.line, "columns " + std::to_string(*roles.time + 1) + " and " + std::to_string(k + 1) +
                                     " are times that differ: one file for each record is needed");
+  const std::vector<double>& clocked = values[*roles.time];
+  if (const auto late = std::adjacent_find(clocked.begin(), clocked.end(), std::greater_equal<>());
+      late != clocked.end()) {
+    std::size_t line = next(rows);
+    for (auto at = clocked.begin(); at <= late; ++at) line = next(line + 1);
+    refuse_line(line, "times must increase, got " + quote(fields[*roles.time]) + " after " + detail::shortest(*late));
+  }
   std::vector<double> times = std::move(values[*roles.time]), units = resolution.units();
   for (double& t : times) t *= roles.seconds;
   for (double& u : units) u *= roles.seconds;
@@ -535,5 +645,9 @@ std::vector<Channel> read_table(const Lines& lines) {
   }
   return channels;
 }
+
+}  // namespace
+
+std::vector<Channel> read_table(const Lines& lines) { return read_columns(lines, false); }
 
 }  // namespace stickslip::records
