@@ -42,6 +42,7 @@
 #include "stickslip/planar/integrate.hpp"
 #include "stickslip/planar/margins.hpp"
 #include "stickslip/planar/slider.hpp"
+#include "stickslip/plausibility.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/forces.hpp"
 #include "stickslip/sliding/integrate.hpp"
@@ -361,6 +362,17 @@ STICKSLIP_EXPORT(numbers_size) std::size_t numbers_size() { return answer.size()
 
 /// The names of the numbers in settings and in summaries.
 STICKSLIP_EXPORT(names) void names() { said = std::string(setting_names) + "\n" + summary_names; }
+
+/// The ranges beyond which another unit is more probable. `text` has a line of quantity and of what has such values for
+/// each, separated by a tab; `numbers` its bounds, the usual bounds, and from where on a value can only be meant.
+STICKSLIP_EXPORT(ranges) void ranges() {
+  said.clear();
+  answer.clear();
+  for (const PlausibleRange& range : plausible::ranges) {
+    said += std::string(range.quantity) + "\t" + range.where + "\n";
+    answer.insert(answer.end(), {range.low, range.high, range.usual_low, range.usual_high, range.meant_from});
+  }
+}
 
 /// Reads a record. The input is the file's name, units and component, each followed by a zero byte, and the content.
 /// @param dt  NaN: as the file states

@@ -37,7 +37,7 @@ const styles = buildSync({
 }).outputFiles[0].text;
 
 /** @param {Uint8Array} bytes */
-const zstd = (bytes) => execFileSync("zstd", ["--ultra", "-22", "--stdout"], { input: bytes, maxBuffer: 1 << 26 });
+const packed = (bytes) => toText(execFileSync("zstd", ["--ultra", "-22", "--stdout"], { input: bytes, maxBuffer: 1 << 26 }));
 
 /** The accelerations [g] of the record with which the page opens, if the package that has it is installed. */
 function sampleRecord() {
@@ -67,9 +67,9 @@ const parts = {
   ]
     .join("\n\n")
     .replace(/[&<>]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[c] ?? c),
-  LIBRARY: toText(zstd(readFileSync(new URL("stickslip.wasm", build)))),
-  SAMPLE: sample ? toText(zstd(sample)) : "",
-  WORKER: inScript(bundled("worker.js")),
+  LIBRARY: packed(readFileSync(new URL("stickslip.wasm", build))),
+  SAMPLE: sample ? packed(sample) : "",
+  WORKER: packed(Buffer.from(bundled("worker.js"))),
   PAGE: inScript(bundled("main.js")),
 };
 

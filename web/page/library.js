@@ -93,6 +93,15 @@
  * @property {boolean} [gaps]
  */
 
+/**
+ * Beyond `bounds`, another unit is more probable, unless a value is so large that it can only be meant; SI units.
+ * @typedef {Object} Range
+ * @property {string} where              what has such values
+ * @property {[number, number]} bounds
+ * @property {[number, number]} usual
+ * @property {number} meant              from where on a value can only be meant
+ */
+
 const HISTORIES = /** @type {const} */ ([
   "displacement",
   "velocity",
@@ -166,6 +175,20 @@ export class Library {
   #checked(answer) {
     if (answer < 0) throw new Error(this.#text());
     return answer;
+  }
+
+  /** @returns {Record<string, Range>} by their quantities */
+  ranges() {
+    this.#wasm.ranges();
+    const numbers = this.#numbers();
+    const lines = this.#text().trimEnd().split("\n");
+    return Object.fromEntries(
+      lines.map((line, i) => {
+        const [quantity = "", where = ""] = line.split("\t");
+        const [low = NaN, high = NaN, least = NaN, most = NaN, meant = NaN] = numbers.slice(5 * i, 5 * i + 5);
+        return [quantity, { where, bounds: [low, high], usual: [least, most], meant }];
+      }),
+    );
   }
 
   /**

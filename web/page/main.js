@@ -34,7 +34,7 @@ import { statistics } from "./statistics.js";
 import { svg } from "./svg.js";
 import { digits, fromUnit, toUnit, unitOf } from "./units.js";
 
-/** @import { Settings, Summary } from "./library.js" */
+/** @import { Range, Settings, Summary } from "./library.js" */
 /** @import { Field } from "./settings.js" */
 /** @import { Joined, Motion, Response } from "./worker.js" */
 /** @import { Stated } from "./metadata.js" */
@@ -78,7 +78,12 @@ function make(tag, properties = {}, ...children) {
 const GRAVITY = 9.80665;
 const NO_COMMAND = "The command has no option for this; the lines in Python give the same numbers.";
 const KINDS = ["breakaway", "reversal", "arrest", "end", "impact", "liftoff", "landing"];
-const worker = startWorker(element("worker").textContent ?? "");
+/** What the page holds packed; empty if nothing. @param {string} id */
+const unpacked = (id) => {
+  const text = (element(id).textContent ?? "").trim();
+  return /** @type {Uint8Array<ArrayBuffer>} */ (text ? decompress(fromText(text)) : new Uint8Array());
+};
+const worker = startWorker(new TextDecoder().decode(unpacked("worker")));
 
 let { settings, others } = fromLink(location.hash.slice(1));
 /** @type {Choice} */
@@ -98,6 +103,8 @@ let now = 0; // [s]
 let generator = GENERATORS.find((one) => one.name === others.motion);
 /** Why there is no response to the settings; empty if there may be one. */
 let broken = "";
+/** Beyond which another unit is more probable. @type {Record<string, Range>} */
+let ranges = {};
 
 // ---- the response
 
@@ -230,7 +237,7 @@ function showRemarks() {
   const say = (/** @type {HTMLElement} */ place, /** @type {HTMLInputElement} */ input, /** @type {Field} */ field) => {
     const found = unreadable.has(field.key)
       ? { text: `${field.label} must be a number`, refused: true }
-      : remark(field, full, (value) => inField(field, [value]));
+      : remark(field, full, (value) => inField(field, [value]), ranges);
     const scaled = field.key === "mus" && full.mus.join() !== typedMus().join() ? `scaled to ${full.mus.map(digits).join(", ")}` : "";
     place.textContent = found?.text ?? scaled;
     place.classList.toggle("wrong", found?.refused ?? false);
@@ -1323,10 +1330,9 @@ const generate = latest(async () => {
 
 /** The record with which the page opens, if it holds one: it does not count. */
 async function showSample() {
-  const text = (element("sample").textContent ?? "").trim();
-  if (!text) return false;
   const { name, dt } = element("sample").dataset;
-  const [motion] = await worker.read(name, decompress(fromText(text)), { units: "g", dt: Number(dt) });
+  const bytes = unpacked("sample");
+  const [motion] = bytes.length ? await worker.read(name, bytes, { units: "g", dt: Number(dt) }) : [];
   if (!motion) return false;
   const source = () => ({ files: [`sample:${name}`], python: [`motion = ss.sample_record("${name}")`] });
   const row = { label: `${name.replaceAll("_", " ")} (sample record)`, file: "", motion, counts: false, source };
@@ -1642,8 +1648,7 @@ async function start() {
   listen();
   showForm();
   showGenerator();
-  const packed = fromText((element("library").textContent ?? "").trim());
-  await worker.load(/** @type {Uint8Array<ArrayBuffer>} */ (decompress(packed)));
+  ranges = await worker.load(unpacked("library"));
   if (!generator && (await showSample())) return;
   generator ??= GENERATORS[0];
   showGenerator();

@@ -1,7 +1,7 @@
 // What the page lets its reader choose: laws and mountings by the names of the command's options, the link that holds
 // them, and the command and the Python lines that give the same numbers.
 
-/** @import { Settings } from "./library.js" */
+/** @import { Range, Settings } from "./library.js" */
 /** @import { Source } from "./sources.js" */
 /** @import { Quantity } from "./units.js" */
 
@@ -59,7 +59,7 @@ export const LAWS = /** @type {const} */ ([
  * @property {Quantity} [quantity]    whose chosen unit it has
  * @property {readonly [number, number]} valid    least and largest value; any between is allowed
  * @property {boolean} [open]         the least value itself is not allowed
- * @property {readonly [number, number]} [usual]  of the magnitude; values outside of it but 0 are likely in another unit
+ * @property {string} [range]         the library's name of the range outside of which another unit is more probable
  * @property {number | readonly number[]} [value]  where the law needs it and the link has none
  * @property {string[]} [laws]    that have it; all if not given
  * @property {(keyof Settings)[]} [needs]  the settings without any of which it has no meaning
@@ -68,41 +68,41 @@ export const LAWS = /** @type {const} */ ([
 
 const SINGLE = LAWS.map(({ name }) => /** @type {string} */ (name)).filter((name) => name !== "pendulum");
 
-/** Coefficients of friction in use are at most 2.5: rock joints, tan 68 degrees. */
-const FRICTION = /** @type {const} */ ({ valid: [0, Infinity], usual: [0, 3] });
-/** What is above 0. @param {number} least  usually  @param {number} most  usually */
-const positive = (least, most) => /** @type {const} */ ({ valid: [0, Infinity], open: true, usual: [least, most] });
+const FRICTION = /** @type {const} */ ({ valid: [0, Infinity], range: "coefficient of friction" });
+const LENGTH = /** @type {const} */ ({ quantity: "length", valid: [0, Infinity], open: true, range: "length" });
+/** What is above 0. @param {string} range */
+const positive = (range) => /** @type {const} */ ({ valid: [0, Infinity], open: true, range });
 
 /** The coefficient that the slider moves. @type {Field} */
 export const MU = { key: "mu", label: "\u03bc", ...FRICTION, hint: "" };
 
 /** The numbers beside mu, in the order of the form. @type {readonly Field[]} */
 export const FIELDS = Object.freeze([
-  { key: "radii", label: "radii", quantity: "length", ...positive(0.02, 20), value: [0.3937, 3.7465, 3.7465], laws: ["pendulum"], hint: "effective; lower and upper, or inner, lower and upper outer, or inner, two middle, two outer" },
+  { key: "radii", label: "radii", quantity: "length", ...positive("radius"), value: [0.3937, 3.7465, 3.7465], laws: ["pendulum"], hint: "effective; lower and upper, or inner, lower and upper outer, or inner, two middle, two outer" },
   { key: "mus", label: "\u03bc of each", ...FRICTION, value: [0.01, 0.04, 0.08], laws: ["pendulum"], hint: "of the surfaces; the slider is the largest and scales all" },
-  { key: "capacities", label: "capacities", quantity: "length", ...positive(0, 3), laws: ["pendulum"], hint: "travel of each surface to its stop; empty for none" },
-  { key: "reach", label: "reach", quantity: "length", ...positive(0, 3), value: 0.05, laws: ["caster"], hint: "distance over which the level falls" },
+  { key: "capacities", label: "capacities", ...LENGTH, laws: ["pendulum"], hint: "travel of each surface to its stop; empty for none" },
+  { key: "reach", label: "reach", ...LENGTH, value: 0.05, laws: ["caster"], hint: "distance over which the level falls" },
   { key: "mu_fast", label: "\u03bc fast", ...FRICTION, value: 0.15, laws: ["speed"], hint: "at high speed; \u03bc is that at rest" },
-  { key: "rate", label: "rate", unit: "s/m", valid: [0, Infinity], usual: [2, 1000], value: 20, laws: ["speed"], hint: "of the change with the speed" },
+  { key: "rate", label: "rate", unit: "s/m", valid: [0, Infinity], range: "rate", value: 20, laws: ["speed"], hint: "of the change with the speed" },
   { key: "mu_residual", label: "\u03bc residual", ...FRICTION, value: 0.05, laws: ["degrading"], hint: "after the distance" },
-  { key: "distance", label: "distance", quantity: "length", ...positive(0, 20), value: 0.1, laws: ["degrading"], hint: "slid until \u03bc is residual" },
+  { key: "distance", label: "distance", quantity: "length", ...positive("distance slid"), value: 0.1, laws: ["degrading"], hint: "slid until \u03bc is residual" },
   { key: "mu_static", label: "\u03bc static", ...FRICTION, value: 0.15, laws: ["stribeck"], hint: "at rest, at least \u03bc, which is that at high speed" },
-  { key: "stribeck_speed", label: "speed", quantity: "velocity", ...positive(0, 5), value: 0.05, laws: ["stribeck"], hint: "at which 63 % of the difference is gone" },
+  { key: "stribeck_speed", label: "speed", quantity: "velocity", ...positive("sliding velocity"), value: 0.05, laws: ["stribeck"], hint: "at which 63 % of the difference is gone" },
   { key: "exponent", label: "exponent", valid: [1, 31], value: 1, laws: ["stribeck"], hint: "a whole number from 1 to 31" },
-  { key: "static_pressure", label: "pressure", unit: "Pa", ...positive(1e5, 1e9), value: 50e6, laws: ["kumar"], hint: "on the sliding surface under the weight alone" },
-  { key: "reference_pressure", label: "reference p", unit: "Pa", ...positive(1e5, 1e9), value: 50e6, laws: ["kumar"], hint: "pressure at which \u03bc holds, at high speed and 20 \u00b0C" },
-  { key: "contact_radius", label: "contact radius", quantity: "length", ...positive(0, 3), value: 0.2, laws: ["kumar"], hint: "of the slider, which heats the middle of the surface while it covers it" },
-  { key: "temperature", label: "temperature", unit: "\u00b0C", valid: [-273.15, Infinity], usual: [0, 300], value: 20, laws: ["kumar"], hint: "of the surface at the start" },
-  { key: "rate", label: "rate", unit: "s/m", valid: [0, Infinity], usual: [2, 1000], value: 100, laws: ["kumar"], hint: "of the change with the speed; \u03bc at rest is half that at high speed" },
-  { key: "diffusivity", label: "diffusivity", unit: "m\u00b2/s", ...positive(1e-7, 1e-3), value: 4.44e-6, laws: ["kumar"], hint: "thermal, of the steel" },
-  { key: "conductivity", label: "conductivity", unit: "W/(m K)", ...positive(0.1, 500), value: 18, laws: ["kumar"], hint: "thermal, of the steel" },
+  { key: "static_pressure", label: "pressure", unit: "Pa", ...positive("pressure"), value: 50e6, laws: ["kumar"], hint: "on the sliding surface under the weight alone" },
+  { key: "reference_pressure", label: "reference p", unit: "Pa", ...positive("pressure"), value: 50e6, laws: ["kumar"], hint: "pressure at which \u03bc holds, at high speed and 20 \u00b0C" },
+  { key: "contact_radius", label: "contact radius", ...LENGTH, value: 0.2, laws: ["kumar"], hint: "of the slider, which heats the middle of the surface while it covers it" },
+  { key: "temperature", label: "temperature", unit: "\u00b0C", valid: [-273.15, Infinity], range: "temperature", value: 20, laws: ["kumar"], hint: "of the surface at the start" },
+  { key: "rate", label: "rate", unit: "s/m", valid: [0, Infinity], range: "rate", value: 100, laws: ["kumar"], hint: "of the change with the speed; \u03bc at rest is half that at high speed" },
+  { key: "diffusivity", label: "diffusivity", unit: "m\u00b2/s", ...positive("diffusivity"), value: 4.44e-6, laws: ["kumar"], hint: "thermal, of the steel" },
+  { key: "conductivity", label: "conductivity", unit: "W/(m K)", ...positive("conductivity"), value: 18, laws: ["kumar"], hint: "thermal, of the steel" },
   { key: "mu_static", label: "\u03bc static", ...FRICTION, hint: "at rest, at least \u03bc", laws: ["coulomb", "caster", "one-way", "speed", "degrading"] },
-  { key: "period", label: "period", unit: "s", ...positive(0.02, 20), hint: "of the mass on its spring; empty without a spring" },
-  { key: "damping_ratio", label: "damping ratio", valid: [0, Infinity], usual: [0, 1], needs: ["period"], hint: "of a damper beside the spring" },
-  { key: "slope", label: "slope", unit: "degrees", valid: [-90, 90], usual: [1, 70], laws: SINGLE, hint: "of the ground; downhill is forward" },
-  { key: "stop_gap", label: "stop gap", quantity: "length", ...positive(0, 3), hint: "from the start to a stop, both ways" },
+  { key: "period", label: "period", unit: "s", ...positive("period"), hint: "of the mass on its spring; empty without a spring" },
+  { key: "damping_ratio", label: "damping ratio", valid: [0, Infinity], range: "damping ratio", needs: ["period"], hint: "of a damper beside the spring" },
+  { key: "slope", label: "slope", unit: "degrees", valid: [-90, 90], range: "slope", laws: SINGLE, hint: "of the ground; downhill is forward" },
+  { key: "stop_gap", label: "stop gap", ...LENGTH, hint: "from the start to a stop, both ways" },
   { key: "restitution", label: "restitution", valid: [0, 1], value: 0.5, needs: ["stop_gap", "capacities"], hint: "speed after an impact over that before" },
-  { key: "scale", label: "scale", valid: [-Infinity, Infinity], usual: [0.01, 100], value: 1, hint: "factor on the ground acceleration" },
+  { key: "scale", label: "scale", valid: [-Infinity, Infinity], value: 1, hint: "factor on the ground acceleration" },
 ]);
 
 /**
@@ -110,9 +110,10 @@ export const FIELDS = Object.freeze([
  * @param {Field} field
  * @param {Settings} settings
  * @param {(value: number) => string} shown  with its unit
+ * @param {Record<string, Range>} ranges     of the library
  * @returns {{text: string, refused: boolean} | null}
  */
-export function remark({ key, label, valid: [least, most], open = false, usual = [0, Infinity] }, settings, shown) {
+export function remark({ key, label, valid: [least, most], open = false, range = "" }, settings, shown, ranges) {
   const value = settings[key];
   const low = key === "mu_static" ? Math.max(least, settings.mu) : least; // at rest friction is at least that in motion
   for (const one of typeof value === "number" ? [value] : value) {
@@ -123,11 +124,9 @@ export function remark({ key, label, valid: [least, most], open = false, usual =
       const got = Number.isNaN(one) ? "" : `, got ${shown(one)}`;
       return { text: `${label} must be ${key === "exponent" ? "a whole number " : ""}${range}${got}`, refused: true };
     }
-    const size = Math.abs(one);
-    if (size > 0 && (size < usual[0] || size > usual[1])) {
-      const [bound, than] = size > usual[1] ? [usual[1], "more"] : [usual[0], "less"];
-      return { text: `${shown(one)} is ${than} than usual (${shown(bound)}): is its unit right?`, refused: false };
-    }
+    const { bounds: [small, large] = [0, Infinity], usual: [from, to] = [0, 0], meant = 0, where = "" } = ranges[range] ?? {};
+    if (one > 0 && one < meant && (one < small || one >= large))
+      return { text: `${shown(one)} is outside ${shown(from)} to ${shown(to)}, the range of ${where}: is its unit right?`, refused: false };
   }
   return null;
 }

@@ -89,6 +89,7 @@ const calls = {
   /** @param {Uint8Array<ArrayBuffer>} bytes */
   async load(bytes) {
     library = await Library.load(bytes);
+    return library.ranges();
   },
 
   /**

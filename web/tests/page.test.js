@@ -521,8 +521,8 @@ test("what is wrong or hard to believe says so beside its field, and no old numb
   }
   const first = (await table()).peak;
   for (const [selector, text, remark] of [
-    ["#mu", "20", "20 is more than usual (3): is its unit right?"],
-    ["#fields [data-key=stop_gap] input", "1000", "1000 cm is more than usual (300 cm): is its unit right?"],
+    ["#mu", "20", "20 is outside 0.01 to 1.5, the range of surfaces: is its unit right?"],
+    ["#fields [data-key=stop_gap] input", "1000", "1000 cm is outside 2 cm to 100 cm, the range of casters, bearings and their stops: is its unit right?"],
   ]) {
     await enter(selector ?? "", text ?? "");
     if (selector === "#mu") await enter("#fields [data-key=mu_static] input", "20");
@@ -533,7 +533,7 @@ test("what is wrong or hard to believe says so beside its field, and no old numb
   assert.equal((await table()).peak, 0); // of mu = 20, not the one before
   assert.notEqual(first, 0);
   await open("mu=0.08&law=pendulum&radii=0.3937 37.465 37.465");
-  assert.match(await page.$eval("#fields [data-key=radii] .remark", (one) => one.textContent ?? ""), /^3746\.5 cm is more than usual \(2000 cm\)/);
+  assert.match(await page.$eval("#fields [data-key=radii] .remark", (one) => one.textContent ?? ""), /^3746\.5 cm is outside 20 cm to 800 cm, the range of dishes/);
   // The generator, in its unit.
   await open("motion=pulse");
   await enter("#generator-values input", "50");
