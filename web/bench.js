@@ -32,7 +32,8 @@ const drop = (/** @type {number} */ files, /** @type {number} */ samples) =>
         }
         transfer.items.add(new File([lines.join("\n")], `${k}.csv`));
       }
-      const rows = document.querySelectorAll("#records li").length + files;
+      const before = document.querySelectorAll("#records li").length;
+      const rows = files + (/not in the table/.test(document.querySelector("#records")?.textContent ?? "") ? before - 1 : before);
       let [pause, last] = [0, performance.now()];
       const watch = setInterval(() => {
         pause = Math.max(pause, performance.now() - last);

@@ -42,6 +42,7 @@
 #include "stickslip/planar/integrate.hpp"
 #include "stickslip/planar/margins.hpp"
 #include "stickslip/planar/slider.hpp"
+#include "stickslip/plausibility.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/forces.hpp"
 #include "stickslip/sliding/integrate.hpp"
@@ -327,6 +328,17 @@ std::vector<double> copy_of(std::span<const double> values) { return {values.beg
 
 void answer_with(std::span<const double> values) { answer.assign(values.begin(), values.end()); }
 
+/// What the page shows of a component: a line of name, component, orientation, units, 1 upward or -1 downward, azimuth,
+/// start and sensor, separated by tabs; empty where there is none.
+std::string line_of(const RecordComponent& one) {
+  const std::string& orientation = one.motion.orientation();
+  const int up = upward(orientation);
+  const std::optional<double> azimuth = azimuth_of(orientation);
+  return one.motion.name() + "\t" + one.name + "\t" + orientation + "\t" + one.units + "\t" +
+         (up != 0 ? std::to_string(up) : "") + "\t" + (azimuth ? detail::shortest(*azimuth) : "") + "\t" + one.start +
+         "\t" + one.sensor + "\n";
+}
+
 /// The next of the texts in the input, each of which ends with a zero byte.
 std::string take(std::string_view& input) {
   const std::size_t end = input.find('\0');
@@ -351,10 +363,20 @@ STICKSLIP_EXPORT(numbers_size) std::size_t numbers_size() { return answer.size()
 /// The names of the numbers in settings and in summaries.
 STICKSLIP_EXPORT(names) void names() { said = std::string(setting_names) + "\n" + summary_names; }
 
+/// The ranges beyond which another unit is more probable. `text` has a line of quantity and of what has such values for
+/// each, separated by a tab; `numbers` its bounds, the usual bounds, and from where on a value can only be meant.
+STICKSLIP_EXPORT(ranges) void ranges() {
+  said.clear();
+  answer.clear();
+  for (const PlausibleRange& range : plausible::ranges) {
+    said += std::string(range.quantity) + "\t" + range.where + "\n";
+    answer.insert(answer.end(), {range.low, range.high, range.usual_low, range.usual_high, range.meant_from});
+  }
+}
+
 /// Reads a record. The input is the file's name, units and component, each followed by a zero byte, and the content.
 /// @param dt  NaN: as the file states
-/// @return the number of the first component; `text` has a line of name, component, orientation, units and whether it
-/// is vertical for each, separated by tabs
+/// @return the number of the first component; `text` has a line for each
 STICKSLIP_EXPORT(read) int read(double dt, int gaps) {
   return guarded([&] {
     std::string_view content(given.data(), given.size());
@@ -368,9 +390,7 @@ STICKSLIP_EXPORT(read) int read(double dt, int gaps) {
     const int first = next;
     said.clear();
     for (RecordComponent& one : components) {
-      const std::string& orientation = one.motion.orientation();
-      said += one.motion.name() + "\t" + one.name + "\t" + orientation + "\t" + one.units + "\t" +
-              (upward(orientation) != 0 ? "vertical" : "") + "\n";
+      said += line_of(one);
       keep(std::move(one));
     }
     return first;
@@ -416,6 +436,19 @@ STICKSLIP_EXPORT(station) int station() {
   });
 }
 
+/// Says where a component points; the input is its component and orientation, each followed by a zero byte.
+/// @return 0; `text` has its line
+STICKSLIP_EXPORT(point) int point(int number) {
+  return guarded([&] {
+    std::string_view content(given.data(), given.size());
+    RecordComponent& one = kept.at(number);
+    one.name = take(content);
+    one.motion = one.motion.with_orientation(take(content));
+    said = line_of(one);
+    return 0;
+  });
+}
+
 STICKSLIP_EXPORT(discard) void discard(int number) { kept.erase(number); }
 
 /// The accelerations of a motion [m/s^2].
@@ -437,7 +470,7 @@ STICKSLIP_EXPORT(times) int times(int number, int more) {
 }
 
 /// dt, NaN for uneven times, and duration [s], PGA [m/s^2], PGV [m/s], PGD [m], CAV [m/s], Arias intensity [m/s] and Tm
-/// [s] of a motion, and D5-95 and D5-75 [s], NaN where they are not defined.
+/// [s] of a motion, and D5-95, D5-75 and the begin of both [s], NaN where they are not defined.
 STICKSLIP_EXPORT(measures) int measures(int number) {
   return guarded([&] {
     const GroundMotion& motion = of(number).motion;
@@ -450,11 +483,13 @@ STICKSLIP_EXPORT(measures) int measures(int number) {
               arias_intensity(motion),
               mean_period(motion),
               undefined,
+              undefined,
               undefined};
     try {
       const StrongMotion strong = strong_motion(motion);
       answer[8] = strong.duration;
       answer[9] = strong.duration_5_75;
+      answer[10] = strong.begin;
     } catch (const std::invalid_argument&) {  // no acceleration, or a straight line
     }
     return 0;

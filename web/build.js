@@ -36,6 +36,23 @@ const styles = buildSync({
   write: false,
 }).outputFiles[0].text;
 
+/** @param {Uint8Array} bytes */
+const packed = (bytes) => toText(execFileSync("zstd", ["--ultra", "-22", "--stdout"], { input: bytes, maxBuffer: 1 << 26 }));
+
+/** The accelerations [g] of the record with which the page opens, if the package that has it is installed. */
+function sampleRecord() {
+  const find = 'from stickslip.samples import sample_files; print(next(str(f) for f in sample_files() if f.stem == "Kobe_1995_TAK-090"))';
+  try {
+    const file = execFileSync("python", ["-c", find], { encoding: "utf8", stdio: ["ignore", "pipe", "ignore"] }).trim();
+    const lines = text(file).split(/\r?\n/).filter((line) => /^[\d.]/.test(line));
+    return Buffer.from(lines.map((line) => line.split(",")[1]).join("\n"));
+  } catch {
+    console.warn("stickslip.html opens with a pulse: no sample records (pip install stickslip[records])");
+    return null;
+  }
+}
+const sample = sampleRecord();
+
 /** @type {Record<string, string>} */
 const parts = {
   STYLE: styles,
@@ -46,11 +63,13 @@ const parts = {
     `kissfft, whose header is compiled in\n\n${text(new URL("../licenses/kissfft.txt", import.meta.url))}`,
     "Highway, whose headers are compiled in, is under the Apache License 2.0 (https://www.apache.org/licenses/LICENSE-2.0); " +
       "Emscripten's libraries, musl and libc++, are under the MIT License and the Apache License 2.0 with LLVM exceptions.",
+    ...(sample ? ["The sample record has the accelerations of the file Kobe_1995_TAK-090 of the package pyslammer."] : []),
   ]
     .join("\n\n")
     .replace(/[&<>]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[c] ?? c),
-  LIBRARY: toText(execFileSync("zstd", ["--ultra", "-22", "--stdout", fileURLToPath(new URL("stickslip.wasm", build))])),
-  WORKER: inScript(bundled("worker.js")),
+  LIBRARY: packed(readFileSync(new URL("stickslip.wasm", build))),
+  SAMPLE: sample ? packed(sample) : "",
+  WORKER: packed(Buffer.from(bundled("worker.js"))),
   PAGE: inScript(bundled("main.js")),
 };
 

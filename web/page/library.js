@@ -65,6 +65,9 @@
  * @property {string} orientation
  * @property {string} units
  * @property {boolean} vertical
+ * @property {number} azimuth      [degrees]; NaN if it states none
+ * @property {string} start        as the file writes it
+ * @property {string} sensor       where it is, if the file says so
  */
 
 /**
@@ -79,6 +82,7 @@
  * @property {number} mean_period    [s]
  * @property {number} d5_95          [s]
  * @property {number} d5_75          [s]
+ * @property {number} begin          of both durations [s]
  */
 
 /**
@@ -87,6 +91,15 @@
  * @property {string} [component]
  * @property {number} [dt]        [s]
  * @property {boolean} [gaps]
+ */
+
+/**
+ * Beyond `bounds`, another unit is more probable, unless a value is so large that it can only be meant; SI units.
+ * @typedef {Object} Range
+ * @property {string} where              what has such values
+ * @property {[number, number]} bounds
+ * @property {[number, number]} usual
+ * @property {number} meant              from where on a value can only be meant
  */
 
 const HISTORIES = /** @type {const} */ ([
@@ -164,6 +177,20 @@ export class Library {
     return answer;
   }
 
+  /** @returns {Record<string, Range>} by their quantities */
+  ranges() {
+    this.#wasm.ranges();
+    const numbers = this.#numbers();
+    const lines = this.#text().trimEnd().split("\n");
+    return Object.fromEntries(
+      lines.map((line, i) => {
+        const [quantity = "", where = ""] = line.split("\t");
+        const [low = NaN, high = NaN, least = NaN, most = NaN, meant = NaN] = numbers.slice(5 * i, 5 * i + 5);
+        return [quantity, { where, bounds: [low, high], usual: [least, most], meant }];
+      }),
+    );
+  }
+
   /**
    * All components of a record.
    * @param {string} name
@@ -179,13 +206,31 @@ export class Library {
     bytes.set(content, texts.length);
     this.#give(bytes);
     const first = this.#checked(this.#wasm.read(dt, gaps ? 1 : 0));
+    return this.#components(first);
+  }
+
+  /**
+   * Says where a component points.
+   * @param {number} id
+   * @param {string} component    its name
+   * @param {string} orientation
+   * @returns {Component}
+   */
+  point(id, component, orientation) {
+    this.#give(new TextEncoder().encode(`${component}\0${orientation}\0`));
+    this.#checked(this.#wasm.point(id));
+    return /** @type {Component} */ (this.#components(id)[0]);
+  }
+
+  /** Components from their lines. @param {number} first  the number of the first  @returns {Component[]} */
+  #components(first) {
     return this.#text()
-      .trimEnd()
+      .replace(/\n$/, "")
       .split("\n")
       .map((line, i) => {
-        const [motion = "", called = "", orientation = "", unit = "", vertical = ""] = line.split("\t");
-        const id = first + i;
-        return { id, name: motion, component: called, orientation, units: unit, vertical: vertical !== "" };
+        const [name = "", component = "", orientation = "", units = "", up = "", azimuth = "", start = "", sensor = ""] = line.split("\t");
+        const [vertical, angle] = [up !== "", azimuth === "" ? NaN : Number(azimuth)];
+        return { id: first + i, name, component, orientation, units, vertical, azimuth: angle, start, sensor };
       });
   }
 
@@ -249,8 +294,8 @@ export class Library {
    */
   measures(id) {
     this.#checked(this.#wasm.measures(id));
-    const [dt, duration, pga, pgv, pgd, cav, arias, mean_period, d5_95, d5_75] = this.#numbers();
-    return /** @type {Measures} */ ({ dt, duration, pga, pgv, pgd, cav, arias, mean_period, d5_95, d5_75 });
+    const [dt, duration, pga, pgv, pgd, cav, arias, mean_period, d5_95, d5_75, begin] = this.#numbers();
+    return /** @type {Measures} */ ({ dt, duration, pga, pgv, pgd, cav, arias, mean_period, d5_95, d5_75, begin });
   }
 
   /**

@@ -4,21 +4,26 @@ import { decompress } from "fzstd";
 
 import { latest, startWorker } from "./client.js";
 import { csv, download } from "./csv.js";
-import { color, CurvePlot, forgetColors, levelLine, LinePlot, shade } from "./plots.js";
+import { metadataOf, statedOf } from "./metadata.js";
+import { color, CURVE_HEIGHT, CurvePlot, forgetColors, levelLine, LinePlot, shade } from "./plots.js";
 import { drawScene, measureScene } from "./scene.js";
 import {
   applies,
   command,
   completed,
+  described,
   FIELDS,
   fromLink,
   given,
   LAWS,
   listed,
+  MU,
+  NOT_GIVEN,
   pathCommand,
   pathPython,
   PERIODS,
   python,
+  remark,
   spectrumCommand,
   spectrumPython,
   toLink,
@@ -27,11 +32,12 @@ import { GENERATORS, recorded } from "./sources.js";
 import { fromText } from "./packed.js";
 import { statistics } from "./statistics.js";
 import { svg } from "./svg.js";
-import { digits, unitOf } from "./units.js";
+import { digits, fromUnit, toUnit, unitOf } from "./units.js";
 
-/** @import { Settings, Summary } from "./library.js" */
+/** @import { Range, Settings, Summary } from "./library.js" */
 /** @import { Field } from "./settings.js" */
-/** @import { Motion, Response } from "./worker.js" */
+/** @import { Joined, Motion, Response } from "./worker.js" */
+/** @import { Stated } from "./metadata.js" */
 /** @import { Source } from "./sources.js" */
 /** @import { Choice, Quantity } from "./units.js" */
 
@@ -41,10 +47,13 @@ import { digits, unitOf } from "./units.js";
  * @property {string} label
  * @property {string} file
  * @property {Motion} [motion]
- * @property {(vertical: boolean) => Source} source
+ * @property {Joined} [joined]     with the other components of its station
+ * @property {boolean} counts      whether it is among the records that the reader chose
+ * @property {(station: readonly Motion[]) => Source} source  of the components that act
  * @property {string} [error]
  * @property {Uint8Array} [bytes]  of a file that could not be read, to try again
  * @property {HTMLLIElement} [failed]  what says that it could not
+ * @property {() => Stated} [entered]  what the reader entered for it
  */
 
 /**
@@ -69,12 +78,17 @@ function make(tag, properties = {}, ...children) {
 const GRAVITY = 9.80665;
 const NO_COMMAND = "The command has no option for this; the lines in Python give the same numbers.";
 const KINDS = ["breakaway", "reversal", "arrest", "end", "impact", "liftoff", "landing"];
-const worker = startWorker(element("worker").textContent ?? "");
+/** What the page holds packed; empty if nothing. @param {string} id */
+const unpacked = (id) => {
+  const text = (element(id).textContent ?? "").trim();
+  return /** @type {Uint8Array<ArrayBuffer>} */ (text ? decompress(fromText(text)) : new Uint8Array());
+};
+const worker = startWorker(new TextDecoder().decode(unpacked("worker")));
 
 let { settings, others } = fromLink(location.hash.slice(1));
 /** @type {Choice} */
 const units = {
-  length: others.length === "in" ? "in" : "cm",
+  length: others.length === "in" || others.length === "m" ? others.length : "cm",
   acceleration: others.acceleration === "si" ? "si" : "g",
 };
 /** @type {Row[]} */
@@ -86,7 +100,11 @@ let response = null;
 /** Settings to compare with, and what they give. @type {{settings: Settings, response: Response | null} | null} */
 let pinned = null;
 let now = 0; // [s]
-let generator = GENERATORS.find((one) => one.name === others.motion) ?? GENERATORS[0];
+let generator = GENERATORS.find((one) => one.name === others.motion);
+/** Why there is no response to the settings; empty if there may be one. */
+let broken = "";
+/** Beyond which another unit is more probable. @type {Record<string, Range>} */
+let ranges = {};
 
 // ---- the response
 
@@ -112,13 +130,13 @@ function makePlots() {
     if (!playing && !moving && response && index !== null) setTime(response.time[index] ?? 0, false);
   };
   const history = (/** @type {string} */ name, /** @type {string[]} */ strokes) =>
-    new LinePlot(element(`plot-${name}`), strokes, onCursor, "time", setWindow);
+    new LinePlot(element(`plot-${name}`), strokes, onCursor, "time", { onWindow: setWindow });
   return {
     acceleration: history("acceleration", ["acceleration"]),
     velocity: history("velocity", ["velocity", "pinned"]),
     displacement: history("displacement", ["displacement", "pinned"]),
     hysteresis: new CurvePlot(element("plot-hysteresis"), "force"),
-    path: new CurvePlot(element("plot-path"), "displacement"),
+    path: new CurvePlot(element("plot-path"), "displacement", true),
     sliding: new LinePlot(element("plot-sliding"), ["displacement", "velocity"], (i) => readSpectrum("sliding", i), "number"),
     response: new LinePlot(element("plot-response"), ["acceleration"], (i) => readSpectrum("response", i), "logarithm"),
   };
@@ -126,8 +144,8 @@ function makePlots() {
 
 const update = latest(async () => {
   const row = selected;
-  if (!row?.motion) return;
-  const [now, id] = problemOf(settings, row.motion);
+  if (!row?.motion || broken) return;
+  const [now, id] = problemOf(settings, row);
   const change = changes;
   const done = (/** @type {string} */ state) => {
     if (change === changes) document.body.dataset.state = state; // else the next one is coming
@@ -135,31 +153,54 @@ const update = latest(async () => {
   try {
     const found = await worker.slide(id, now);
     if (pinned) {
-      const [others, other] = problemOf(pinned.settings, row.motion);
+      const [others, other] = problemOf(pinned.settings, row);
       pinned.response = await worker.slide(other, others).catch(() => null);
     }
-    if (row !== selected) return;
+    if (row !== selected || broken) return;
     response = found;
     element("trouble").textContent = "";
     done("shown");
   } catch (error) {
-    response = null;
-    element("trouble").textContent = /** @type {Error} */ (error).message;
+    if (row !== selected || broken) return;
+    refuse(/** @type {Error} */ (error).message);
     done("failed");
   }
   show(now, row);
 });
 
+/** Shows why there are no numbers, in their place. @param {string} reason */
+function refuse(reason) {
+  response = null;
+  element("trouble").textContent = reason;
+  element("output").classList.add("empty");
+}
+
 /**
  * What a motion slides with: the settings that have a meaning, and the motion with or without its vertical component.
  * @param {Settings} given
- * @param {Motion} motion
+ * @param {Row} row
  * @returns {[Settings, number]}
  */
-function problemOf(given, motion) {
+function problemOf(given, { motion, joined }) {
   const full = completed(given);
-  if (motion.verticalId === null) full.vertical = 0;
-  return [full, full.vertical && motion.verticalId !== null ? motion.verticalId : motion.id];
+  const both = joined?.verticalId ?? null;
+  if (both === null) full.vertical = 0;
+  return [full, full.vertical && both !== null ? both : /** @type {Motion} */ (motion).id];
+}
+
+/**
+ * Where a row and the components that act with it come from.
+ * @param {Row} row
+ * @param {boolean} vertical
+ * @param {boolean} plane
+ * @returns {Source}
+ */
+function sourceOf(row, vertical, plane = false) {
+  const self = /** @type {Motion} */ (row.motion);
+  const station = rows.flatMap(({ motion }) => (motion && row.joined?.members.includes(motion.id) ? [motion] : []));
+  const acting = station.filter((one) => one === self || (one.vertical ? vertical : plane));
+  const source = row.source(acting.length ? acting : [self]);
+  return { ...source, dropsVertical: plane && !vertical && station.some((one) => one.vertical && source.files.includes(one.file)) };
 }
 
 let lastChange = 0; // [ms]
@@ -177,12 +218,45 @@ function changed() {
   element("figure-path").dataset.state = "busy";
   clearTimeout(linkWaits);
   linkWaits = setTimeout(saveLink, 200); // once for a moving slider: a browser allows 20 a second
+  broken = showRemarks();
+  if (broken) {
+    document.body.dataset.state = "failed";
+    return refuse(broken);
+  }
   update();
   updateSliding();
   updateResponseSpectrum();
   updatePath();
   if (!element("many").hidden) slideMany();
 }
+
+/** Shows beside each field what is wrong with it. @returns {string} what must be mended; empty if nothing */
+function showRemarks() {
+  const full = completed(settings);
+  let wrong = "";
+  const say = (/** @type {HTMLElement} */ place, /** @type {HTMLInputElement} */ input, /** @type {Field} */ field) => {
+    const found = unreadable.has(field.key)
+      ? { text: `${field.label} must be a number`, refused: true }
+      : remark(field, full, (value) => inField(field, [value]), ranges);
+    const scaled = field.key === "mus" && full.mus.join() !== typedMus().join() ? `scaled to ${full.mus.map(digits).join(", ")}` : "";
+    place.textContent = found?.text ?? scaled;
+    place.classList.toggle("wrong", found?.refused ?? false);
+    input.setAttribute("aria-invalid", String(found?.refused ?? false));
+    if (found?.refused) wrong ||= found.text;
+  };
+  say(element("mu-remark"), element("mu"), MU);
+  for (const label of element("fields").children) {
+    const field = fieldOf(label.dataset.key, full);
+    if (field) say(label.querySelector(".remark"), label.querySelector("input"), field);
+  }
+  return wrong || (selected === generated ? generatorTrouble : "");
+}
+
+/** What is wrong with the numbers of the generator; empty if nothing. */
+let generatorTrouble = "";
+
+/** @param {string} key  @param {Settings} full */
+const fieldOf = (key, full) => FIELDS.find((field) => field.key === key && applies(field, full));
 
 // ---- spectra
 
@@ -191,22 +265,22 @@ let sliding = null;
 const LEVELS = 100;
 const PART_TIME = 20; // of a part [ms]: a change waits for it
 
-/** What the spectrum depends on: not mu, to which the coefficients of several surfaces are scaled. @param {Motion} motion */
-const slidingKey = (motion) => JSON.stringify(problemOf({ ...settings, mu: 1 }, motion));
+/** What the spectrum depends on: not mu, to which the coefficients of several surfaces are scaled. @param {Row} row */
+const slidingKey = (row) => JSON.stringify(problemOf({ ...settings, mu: 1 }, row));
 
 /** In parts, while nothing else is asked: it does not depend on mu, so that a moving slider can wait for it. */
 const updateSliding = latest(async () => {
   const row = selected;
-  if (!row?.motion) return;
-  const [full, id] = problemOf(settings, row.motion);
-  const key = slidingKey(row.motion);
+  if (!row?.motion || broken) return;
+  const [full, id] = problemOf(settings, row);
+  const key = slidingKey(row);
   if (sliding?.key === key) return; // `show` has drawn it
   const highest = Math.max((row.motion.measures.pga * Math.abs(full.scale)) / GRAVITY, 0.01);
   const mus = Float64Array.from({ length: LEVELS }, (_, i) => ((i + 1) / LEVELS) * highest);
   const [peak, residual] = [new Float64Array(LEVELS), new Float64Array(LEVELS)];
   for (let i = 0, count = 4; i < LEVELS; ) {
     await untilIdle();
-    if (row !== selected || key !== slidingKey(row.motion)) return;
+    if (row !== selected || broken || key !== slidingKey(row)) return;
     const begin = performance.now();
     const part = await worker.spectrum(id, full, mus.slice(i, i + count)).catch(() => null);
     if (!part) return;
@@ -242,7 +316,7 @@ const zeta = () => Number(others.zeta ?? 0.05);
 
 const updateResponseSpectrum = latest(async () => {
   const row = selected;
-  if (!row?.motion) return;
+  if (!row?.motion || broken) return;
   const [{ id }, damping] = [row.motion, zeta()];
   const key = `${id} ${damping}`;
   if (spectrum?.key !== key) {
@@ -268,16 +342,16 @@ function showResponseSpectrum() {
   const values = spectralAccelerations();
   element("figure-response").dataset.si = JSON.stringify([...values]);
   plots.response.show(PERIODS, [inUnits(values, "acceleration")]);
-  const source = row.source(false);
+  const source = sourceOf(row, false);
   element("response-command").textContent = spectrumCommand(source, zeta(), settings.scale) ?? NO_COMMAND;
   element("response-python").textContent = spectrumPython(source, zeta(), settings.scale);
 }
 
 /** The point of each spectrum whose values are shown. */
-const points = { sliding: 0, response: 0 };
+const points = { sliding: 0, response: 0, curves: 0 };
 
 /**
- * @param {keyof typeof points} which
+ * @param {"sliding" | "response"} which
  * @param {number | null} index
  */
 function readSpectrum(which, index) {
@@ -296,10 +370,11 @@ function readSpectrum(which, index) {
  * @param {number} step
  */
 function moveOnSpectrum(which, step) {
-  const xs = which === "sliding" ? (sliding?.mus ?? new Float64Array()) : PERIODS;
+  const xs = { sliding: sliding?.mus, response: PERIODS, curves: curves?.mus }[which] ?? new Float64Array();
   const index = Math.min(xs.length - 1, Math.max(0, points[which] + step));
-  plots[which].point(xs[index] ?? 0);
-  readSpectrum(which, index);
+  (which === "curves" ? curvePlot : plots[which])?.point(xs[index] ?? 0);
+  if (which === "curves") readCurves(index);
+  else readSpectrum(which, index);
 }
 
 function downloadSliding() {
@@ -314,12 +389,12 @@ function downloadResponse() {
   if (!spectrum) return;
   const values = spectralAccelerations();
   const lines = Array.from(PERIODS, (period, i) => [period, values[i] ?? NaN]);
-  const comments = [
+  const notes = [
     `stickslip: ${spectrum.row.label}; damping ratio ${zeta()}; scale ${settings.scale}`,
-    ...described(groundNumbers(spectrum.row)),
+    ...comments(groundNumbers(spectrum.row)),
   ];
   const header = ["period_s", "pseudo_acceleration_m_s2"];
-  download(`${fileName(spectrum.row)}_response_spectrum.csv`, csv(header, lines, comments), "text/csv");
+  download(`${fileName(spectrum.row)}_response_spectrum.csv`, csv(header, lines, notes), "text/csv");
 }
 
 // ---- the path in the plane
@@ -333,33 +408,58 @@ let pathTime = 0; // that the last path took [ms]
 const updatePath = latest(async () => {
   if (pathTime > SLOW) await untilIdle();
   const row = selected;
-  const id = row?.motion?.planarId ?? null;
+  if (broken) return;
+  const id = row?.joined?.planarId ?? null;
   const full = completed(settings);
-  let trouble = "";
+  let trouble = row?.joined?.reason ?? "";
   const figure = element("figure-path");
   const change = changes;
-  const refuse = (/** @type {Error} */ error) => ((trouble = error.message), null);
   const begin = performance.now();
-  const found = id === null ? null : await worker.path(id, full).catch(refuse);
+  const found = id === null ? null : await worker.path(id, full).catch((/** @type {Error} */ error) => ((trouble = error.message), null));
   pathTime = performance.now() - begin;
-  if (row !== selected) return;
-  figure.hidden = id === null;
+  if (row !== selected || broken) return;
+  figure.hidden = id === null && trouble === "";
   element("path").hidden = found === null;
   path = row && found ? { row, ...found } : null;
   element("title-path").textContent = path
-    ? `Path in the plane [${unit("length").name}], friction along the velocity`
+    ? `Path in the plane [${unit("length").name}], seen from above: under both horizontal components, friction along the velocity`
     : `No path in the plane: ${trouble}`;
   if (!path || !row?.motion) return;
-  plots.path.resize();
-  plots.path.show(inUnits(path.axis, "length"), inUnits(path.transverse, "length"), true);
+  showPath();
   showPointOfPath();
   element("path-numbers").tBodies[0].replaceChildren(...pathNumbers().map((line) => tableRow(line)));
-  const hasVertical = row.motion.verticalId !== null;
-  element("path-command").textContent = pathCommand(full, row.source(false), hasVertical) ?? NO_COMMAND;
+  const source = sourceOf(row, full.vertical === 1, true);
+  element("path-command").textContent = pathCommand(full, source) ?? NO_COMMAND;
   const even = !Number.isNaN(row.motion.measures.dt);
-  element("path-python").textContent = pathPython(full, row.source(true), hasVertical, even, path.summary.at_rest === 1);
+  element("path-python").textContent = pathPython(full, source, even, path.summary.at_rest === 1);
   if (change === changes) figure.dataset.state = "shown";
 });
+
+/** As a map: the axis upward, the transverse direction, clockwise from it, to the right. */
+function showPath() {
+  if (!path?.row.motion) return;
+  const [axis, transverse] = [inUnits(path.axis, "length"), inUnits(path.transverse, "length")];
+  const { name } = unit("length");
+  const { azimuth, component, orientation } = path.row.motion;
+  const right = Number.isNaN(azimuth) ? "" : ` (${(azimuth + 90) % 360}\u00b0)`;
+  let far = 0;
+  axis.forEach((x, i) => {
+    if (Math.hypot(x, transverse[i] ?? 0) > Math.hypot(axis[far] ?? 0, transverse[far] ?? 0)) far = i;
+  });
+  const { peak, residual } = path.summary;
+  const last = axis.length - 1;
+  plots.path.resize();
+  plots.path.map(transverse, axis, {
+    right: `transverse${right} [${name}]`,
+    up: `along ${Number.isNaN(azimuth) ? component : orientation} [${name}]`,
+    marks: [
+      { name: "start", x: 0, y: 0, label: "start" },
+      { name: "peak", x: transverse[far] ?? 0, y: axis[far] ?? 0, label: `peak ${shown(peak, "length")}` },
+      { name: "residual", x: transverse[last] ?? 0, y: axis[last] ?? 0, label: `residual ${shown(residual, "length")}` },
+    ],
+    north: azimuth,
+  });
+}
 
 /** @returns {Line[]} */
 const pathNumbers = () => (path ? [...slideNumbers(path.summary), ...certificate(path.summary)] : []);
@@ -368,8 +468,8 @@ function downloadPath() {
   if (!path) return;
   const { row, time, axis, transverse } = path;
   const lines = Array.from(time, (t, i) => [t, axis[i] ?? NaN, transverse[i] ?? NaN]);
-  const comments = [`stickslip: ${row.label}, in the plane; ${toLink(completed(settings))}`, ...described(pathNumbers())];
-  download(`${fileName(row)}_path.csv`, csv(["time_s", "axis_m", "transverse_m"], lines, comments), "text/csv");
+  const notes = [`stickslip: ${row.label}, in the plane; ${toLink(completed(settings))}`, ...comments(pathNumbers())];
+  download(`${fileName(row)}_path.csv`, csv(["time_s", "axis_m", "transverse_m"], lines, notes), "text/csv");
 }
 
 // ---- many records
@@ -380,15 +480,19 @@ function downloadPath() {
 let pairs = [];
 let cancelled = false;
 
+/** The records of the table: what the reader chose, without vertical components. */
+const countedRows = () => rows.filter(({ motion, counts }) => motion && counts && !motion.vertical);
+
 const slideMany = latest(async () => {
   cancelled = false;
   const found = [];
-  const motions = rows.filter((row) => row.motion);
+  const motions = countedRows();
   const given = JSON.stringify(settings);
   element("many-cancel").hidden = false;
   for (const row of motions) {
+    if (broken) break;
     element("many-progress").textContent = `Record ${found.length + 1} of ${motions.length}`;
-    const [full, id] = problemOf(settings, /** @type {Motion} */ (row.motion));
+    const [full, id] = problemOf(settings, row);
     const none = { peak: NaN, residual: NaN };
     try {
       found.push({ row, ...(await worker.bothWays(id, full)) });
@@ -401,7 +505,93 @@ const slideMany = latest(async () => {
   element("many-progress").textContent = cancelled ? `Cancelled after ${found.length} of ${motions.length}` : "";
   pairs = found;
   showMany();
+  updateCurves();
 });
+
+/** What is not in the table, and why. */
+function manyNote() {
+  const vertical = rows.filter(({ motion }) => motion?.vertical).map(({ label }) => label);
+  const aside = rows.find(({ motion, counts }) => motion && !counts);
+  return [
+    ...(countedRows().length ? [] : ["No record yet: drop files on the page."]),
+    ...(vertical.length ? [`Left out, because they are vertical: ${vertical.join(", ")}.`] : []),
+    ...(aside ? [`\u201c${aside.label}\u201d does not count${aside === generated ? " unless you add it to the records" : ""}.`] : []),
+  ].join(" ");
+}
+
+// ---- peaks over mu of many records
+
+const CURVE_LEVELS = 25;
+/** The mean of both polarities [m] of each record. @type {{key: string, labels: string[], mus: Float64Array, peaks: Float64Array[], median: Float64Array} | null} */
+let curves = null;
+/** @type {LinePlot | null} */
+let curvePlot = null;
+
+/** What the curves depend on: not mu. */
+const curvesKey = () => JSON.stringify(countedRows().map((row) => problemOf({ ...settings, mu: 1 }, row)));
+
+const updateCurves = latest(async () => {
+  const counted = countedRows();
+  const key = curvesKey();
+  if (curves?.key === key) return showCurves();
+  curves = null;
+  element("figure-curves").hidden = true;
+  if (!counted.length) return;
+  const highest = Math.max(0.02, ...counted.map(({ motion }) => ((motion?.measures.pga ?? 0) * Math.abs(settings.scale)) / GRAVITY));
+  const mus = Float64Array.from({ length: CURVE_LEVELS }, (_, i) => 0.01 * (100 * highest) ** (i / (CURVE_LEVELS - 1)));
+  /** @type {Float64Array[]} */
+  const peaks = [];
+  for (const row of counted) {
+    await untilIdle();
+    if (cancelled || broken || element("many").hidden || key !== curvesKey()) return;
+    element("many-progress").textContent = `Peak over \u03bc: record ${peaks.length + 1} of ${counted.length}`;
+    element("many-cancel").hidden = false;
+    const [full, id] = problemOf(settings, row);
+    const both = await Promise.all([1, -1].map((sign) => worker.spectrum(id, { ...full, scale: sign * full.scale }, mus).catch(() => null)));
+    peaks.push(mus.map((_, i) => both.reduce((sum, one) => sum + (one?.peak[i] ?? NaN), 0) / 2));
+  }
+  element("many-cancel").hidden = true;
+  element("many-progress").textContent = "";
+  const median = mus.map((_, i) => statistics(peaks.map((peak) => peak[i] ?? NaN)).median);
+  curves = { key, labels: counted.map(({ label }) => label), mus, peaks, median };
+  showCurves();
+});
+
+function showCurves() {
+  if (!curves) return;
+  const { mus, peaks, median } = curves;
+  const figure = element("figure-curves");
+  figure.hidden = false;
+  element("title-curves").textContent = `Peak [${unit("length").name}] over \u03bc: each record, mean of both polarities; median colored`;
+  if (figure.dataset.lines !== String(peaks.length)) {
+    curvePlot?.destroy();
+    const strokes = [...peaks.map(() => "pinned"), "displacement"];
+    const how = { logarithmic: true, dashed: false, height: CURVE_HEIGHT };
+    curvePlot = new LinePlot(element("plot-curves"), strokes, readCurves, "logarithm", how);
+    figure.dataset.lines = String(peaks.length);
+  }
+  curvePlot?.resize();
+  curvePlot?.show(mus, [...peaks, median].map((values) => inUnits(values, "length")));
+  curvePlot?.marks([{ axis: "x", value: settings.mu }]);
+}
+
+/** @param {number | null} index */
+function readCurves(index) {
+  if (index === null || !curves) return;
+  points.curves = index;
+  const values = curves.peaks.map((peak) => peak[index] ?? NaN).filter((value) => !Number.isNaN(value));
+  element("read-curves").textContent =
+    `\u03bc = ${digits(curves.mus[index] ?? NaN)}: median ${shown(curves.median[index] ?? NaN, "length")}, ` +
+    `from ${shown(Math.min(...values), "length")} to ${shown(Math.max(...values), "length")}`;
+}
+
+function downloadCurves() {
+  if (!curves) return;
+  const { mus, peaks, median, labels } = curves;
+  const lines = Array.from(mus, (mu, i) => [mu, median[i] ?? NaN, ...peaks.map((peak) => peak[i] ?? NaN)]);
+  const note = `stickslip: peak [m], mean of both polarities; ${toLink({ ...completed(settings), mu: NaN })}`;
+  download("peaks_over_mu.csv", csv(["mu", "median", ...labels], lines, [note]), "text/csv");
+}
 
 /** @type {[string, (pair: Pair) => number][]} */
 const COLUMNS = [
@@ -424,6 +614,8 @@ function manyStatistics() {
 }
 
 function showMany() {
+  element("many-settings").textContent = inWords(completed(settings));
+  element("many-note").textContent = manyNote();
   const { name, size } = unit("length");
   const cells = (/** @type {number[]} */ values) => values.map((value) => make("td", {}, digits(value / size)));
   const table = element("many-table");
@@ -460,11 +652,13 @@ function downloadMany() {
 function view(many) {
   element("many").hidden = !many;
   element("one").hidden = many;
+  element("top").hidden = many;
   element("view-one").setAttribute("aria-pressed", String(!many));
   element("view-many").setAttribute("aria-pressed", String(many));
   if (many) {
     showMany(); // in the present units
-    slideMany();
+    if (broken) refuse(broken);
+    else slideMany();
   } else for (const plot of Object.values(plots)) plot.resize();
 }
 
@@ -473,12 +667,22 @@ function view(many) {
  * @param {Row} row
  */
 function show(s, row) {
-  const source = row.source(s.vertical === 1);
+  const source = sourceOf(row, s.vertical === 1);
   element("command").textContent = command(s, source) ?? NO_COMMAND;
   element("python").textContent = python(s, source, response?.summary.at_rest !== 0);
-  element("pinned").textContent = pinned ? `Compared with ${toLink(completed(pinned.settings)).replaceAll("&", ", ")} (dashed).` : "";
+  element("pinned").textContent = pinned ? `Compared with ${inWords(completed(pinned.settings))} (dashed).` : "";
   element("output").classList.toggle("empty", response === null);
   if (!response) return;
+  if (row !== windowed) {
+    windowed = row;
+    setWindow(strongWindow(row));
+  }
+  element("subject").textContent = `${row.label}: ${inWords(s)}`;
+  element("answer").replaceChildren(
+    ...["peak", "residual"].map((name) =>
+      make("span", {}, `${name} `, make("b", {}, shown(/** @type {any} */ (response).summary[name], "length"))),
+    ),
+  );
   const { summary, acceleration, velocity, displacement, force, events } = response;
   const other = pinned?.response ?? null;
   // Both on the longer time base: the one that rested earlier stays where it is.
@@ -507,7 +711,6 @@ function show(s, row) {
     speeds.map((values) => inUnits(values, "velocity")),
     { before: (u, ctx) => shade(u, ctx, rests) },
   );
-  element("title-displacement").textContent = `Displacement relative to the ground [${length.name}]`;
   const [peak, residual] = [summary.peak / length.size, summary.residual / length.size];
   let [low, high] = [0, 0];
   for (let i = 0; i < displacement.length; ++i) {
@@ -515,6 +718,8 @@ function show(s, row) {
     high = Math.max(high, displacement[i] ?? 0);
   }
   const signed = -low > high ? -peak : peak;
+  element("title-displacement").textContent =
+    `Displacement relative to the ground [${length.name}]: peak ${digits(signed)} (dotted line), residual ${digits(residual)} (dashed)`;
   const places = [
     padded(displacement, summary.residual),
     other ? padded(other.displacement, other.summary.residual) : new Float64Array(),
@@ -525,17 +730,8 @@ function show(s, row) {
     {
       range: [Math.min(0, signed), Math.max(0, signed)],
       after: (u, ctx) => {
-        const label = `peak ${digits(peak)}`;
-        const apart = Math.abs(u.valToPos(signed, "y") - u.valToPos(residual, "y")) > 16;
-        const indent = apart ? 4 : ctx.measureText(label).width + 16;
-        levelLine(u, ctx, signed, { stroke: "level", dash: [2, 3], label, below: signed > 0 });
-        levelLine(u, ctx, residual, {
-          stroke: "displacement",
-          dash: [6, 3],
-          label: `residual ${digits(residual)}`,
-          below: residual < signed,
-          indent,
-        });
+        levelLine(u, ctx, signed, { stroke: "level", dash: [2, 3] });
+        levelLine(u, ctx, residual, { stroke: "displacement", dash: [6, 3] });
       },
     },
   );
@@ -585,6 +781,16 @@ function sticks(events, end) {
   return intervals;
 }
 
+/** The row whose window is that of its strong motion. @type {Row | null} */
+let windowed = null;
+
+/** The times of D5-95 with a quarter of it before and after, where the record is over three times as long. @param {Row} row  @returns {[number, number] | null} */
+function strongWindow({ motion }) {
+  const { begin, d5_95, duration } = motion?.measures ?? { begin: NaN, d5_95: NaN, duration: NaN };
+  const [from, to] = [Math.max(0, begin - d5_95 / 4), begin + 1.25 * d5_95];
+  return to - from < duration / 3 ? [from, to] : null;
+}
+
 /** @typedef {[string, number, Quantity, string]} Line  name, value in SI units, quantity, SI unit */
 
 /**
@@ -605,7 +811,7 @@ function groundNumbers({ motion }, times = settings.scale) {
 }
 
 /** Comments of a table. @param {Line[]} lines */
-const described = (lines) => lines.map(([name, value, , si]) => `${name}${si ? ` [${si}]` : ""}: ${value}`);
+const comments = (lines) => lines.map(([name, value, , si]) => `${name}${si ? ` [${si}]` : ""}: ${value}`);
 
 /** @param {Summary} summary  @returns {Line[]} */
 const slideNumbers = (summary) => [
@@ -683,7 +889,7 @@ function report(s, row) {
   const { summary } = response;
   const law = LAWS[s.law]?.label ?? "";
   const details = FIELDS.filter((field) => field.key !== "scale" && applies(field, s) && given(s, field.key)).map(
-    (field) => `${field.label} ${entered(field, s)}${field.unit ? ` ${field.unit}` : ""}`,
+    (field) => `${field.label} ${inField(field, listOf(s[field.key]))}`,
   );
   if (s.pendulum) details.push("the spring being a pendulum");
   const scaled = s.scale === 1 ? "" : `, scaled by ${s.scale}`;
@@ -802,7 +1008,7 @@ function showPointOfPath() {
   const at = interpolated(path.time, now);
   const [x, y] = [plain(at(path.axis)), plain(at(path.transverse))];
   const { size } = unit("length");
-  plots.path.point(x / size, y / size);
+  plots.path.point(y / size, x / size);
   element("read-path").textContent =
     `t = ${now.toFixed(2)} s: ${shown(x, "length")} along, ${shown(y, "length")} across, ` +
     `${shown(Math.hypot(x, y), "length")} from the start`;
@@ -865,65 +1071,86 @@ function play(on) {
 
 let readingStopped = false;
 
+/** A table that states what files leave open. @type {Map<string, Stated> | null} */
+let metadata = null;
+
 /** @param {FileList | File[]} files */
 async function addFiles(files) {
   let done = 0;
-  const first = rows.length;
+  const before = new Set(rows);
   readingStopped = false;
   element("reading-cancel").hidden = files.length === 1;
   for (const file of files) {
     element("progress").textContent = files.length > 1 ? `Reading file ${++done} of ${files.length}` : "Reading";
     const inside = await worker.unpack(file.name, new Uint8Array(await file.arrayBuffer()));
     for (const one of inside) {
-      if ("error" in one) rows.push({ label: one.name, file: one.name, error: one.error, source: () => recordedAs(one.name) });
-      else await addFile(one.name, one.bytes);
+      if ("error" in one) rows.push(failedRow(one.name, one.error));
+      else if (!takeMetadata(one.bytes)) await addFile(one.name, one.bytes);
       if (readingStopped) break;
     }
     if (readingStopped) break;
   }
+  if (metadata) for (const row of rows.filter(asks)) await addFile(row.file, /** @type {Uint8Array} */ (row.bytes), {}, rows.indexOf(row));
   element("reading-cancel").hidden = true;
+  // What the page showed before the first record was there is no record of its reader.
+  if (rows.some((row) => slides(row) && !before.has(row))) for (const row of rows.filter(({ counts, motion }) => motion && !counts)) forget(row);
+  await join();
   element("progress").textContent = "";
-  select(rows.slice(first).find((row) => row.motion) ?? selected);
+  select(rows.find((row) => slides(row) && !before.has(row)) ?? selected);
+}
+
+/** Joins the components of stations. */
+async function join() {
+  const found = await worker.join(rows.flatMap(({ motion }) => (motion ? [motion] : [])));
+  const byId = new Map(found.map((one) => [one.id, one]));
+  for (const row of rows) row.joined = row.motion && byId.get(row.motion.id);
+}
+
+/** Whether a row is a motion along which an object slides. @param {Row} row */
+const slides = ({ motion }) => motion !== undefined && !motion.vertical;
+
+/** @param {string} file  @param {string} error  @param {Uint8Array} [bytes]  @returns {Row} */
+const failedRow = (file, error, bytes) => ({ label: file, file, error, counts: false, source: () => ({ files: [], python: [] }), ...(bytes ? { bytes } : {}) });
+
+/** Whether a file is a table of metadata, which is then used for all files that leave something open. @param {Uint8Array} bytes */
+function takeMetadata(bytes) {
+  const found = metadataOf(new TextDecoder().decode(bytes.subarray(0, 1 << 20)));
+  if (found) metadata = new Map([...(metadata ?? []), ...found]);
+  return found !== null;
 }
 
 /**
  * @param {string} file
- * @param {{units?: string, dt?: number, component?: string, along?: string, vertical?: boolean}} [more]
- */
-const recordedAs = (file, { units = "", dt = NaN, component = "", along = "", vertical = false } = {}) =>
-  recorded({ file, units, dt, component, along, vertical });
-
-/**
- * @param {string} file
  * @param {Uint8Array} bytes
- * @param {{units?: string, dt?: number}} [options]
- * @param {number} [place]  of the row that this replaces
+ * @param {Stated} [entered]  by the reader
+ * @param {number} [place]    of the row that this replaces
  */
-async function addFile(file, bytes, options = {}, place = rows.length) {
+async function addFile(file, bytes, entered = {}, place = rows.length) {
+  const row = metadata ? statedOf(metadata, file) : {};
+  const { orientation = "" } = row;
   /** @type {Row[]} */
   let found;
   try {
-    const motions = await worker.read(file, bytes, options);
-    found = motions.map((motion, i) => ({
-      label: motions.length > 1 ? `${file} (${motion.component || i + 1})` : file,
+    const motions = await worker.read(file, bytes, { ...entered, orientation }).catch((/** @type {Error} */ error) => {
+      // What the file leaves open, as the table states it.
+      const { units, dt } = asked(error.message);
+      const stated = { ...(units && row.units ? { units: row.units } : {}), ...(dt && row.dt ? { dt: row.dt } : {}) };
+      if (Object.keys(stated).length === 0) throw error;
+      return worker.read(file, bytes, { ...stated, ...entered, orientation });
+    });
+    found = motions.map((motion) => ({
+      label: motions.length > 1 ? `${file} (${motion.component || motion.number})` : file,
       file,
       motion,
-      source: (vertical) =>
-        recordedAs(file, {
-          ...options,
-          // The command slides along a vertical component only if it is named.
-          component: motion.several || motion.vertical ? motion.component || String(i + 1) : "",
-          along: motion.orientation,
-          vertical,
-        }),
+      counts: true,
+      source: (station) => recorded(motion, station),
     }));
   } catch (error) {
-    const message = /** @type {Error} */ (error).message;
-    found = [{ label: file, file, error: message, bytes, source: () => recordedAs(file) }];
+    found = [failedRow(file, /** @type {Error} */ (error).message, bytes)];
   }
-  rows.splice(place, 1, ...found);
+  rows.splice(place, rows[place] ? 1 : 0, ...found);
   showRowsSoon();
-  return found[0];
+  return found.find(slides);
 }
 
 /** @param {Row | null} row */
@@ -931,17 +1158,25 @@ function select(row) {
   if (row !== selected) setWindow(null);
   selected = row;
   showRows();
-  element("vertical").disabled = !row?.motion?.verticalId;
+  element("vertical").disabled = row?.joined?.verticalId == null;
   if (row?.motion) return changed();
-  response = null;
-  element("output").classList.add("empty");
+  refuse("No record: drop files on the page, or choose a motion that it generates.");
+  if (!element("many").hidden) slideMany();
 }
 
 function showRows() {
   const list = element("records");
   const focused = /** @type {HTMLElement} */ (document.activeElement);
   const within = list.contains(focused);
-  list.replaceChildren(...rows.map(rowElement));
+  const joined = new Set(rows.flatMap((row) => row.joined?.members ?? []));
+  const hidden = (/** @type {Row} */ { motion }) => motion?.vertical && joined.has(motion.id); // it acts with those of its station
+  list.replaceChildren(...rows.filter((row) => row.motion && !hidden(row)).map(rowElement));
+  const failed = rows.filter((row) => !row.motion).map(failedElement);
+  if (failed.some((one, i) => one !== element("asking").children[i]) || failed.length !== element("asking").children.length)
+    element("asking").replaceChildren(...failed); // with what is typed in them
+  const asking = rows.filter(asks).length;
+  element("asking-note").hidden = asking === 0;
+  element("asking-all").hidden = asking < 2;
   if (within) (list.contains(focused) ? focused : list.querySelector("[type=radio]:checked"))?.focus();
 }
 
@@ -958,71 +1193,111 @@ function showRowsSoon() {
 }
 
 /** @param {Row} row */
-function rowElement(row) {
+function removeButton(row) {
   const remove = make("button", { type: "button", textContent: "\u00d7", onclick: () => removeRow(row) });
   remove.setAttribute("aria-label", `Remove ${row.label}`);
-  if (!row.motion) {
-    if (row.failed) return row.failed; // with what is typed in it
-    row.failed = make("li", { className: "failed" }, make("b", {}, row.label), remove, make("p", {}, reason(row)));
-    if (asks(row)) row.failed.append(retryForm(row));
-    row.failed.classList.toggle("asks", asks(row));
-    return row.failed;
-  }
-  const radio = make("input", { type: "radio", name: "record", checked: row === selected, onchange: () => select(row) });
-  const { pga, duration } = row.motion.measures;
-  return make(
-    "li",
-    {},
-    make("label", {}, radio, ` ${row.label} `, make("small", {}, `${shown(pga, "acceleration")}, ${digits(duration)} s`)),
-    remove,
-  );
+  return remove;
 }
 
-/** Why a file could not be read. @param {Row} row */
-const reason = ({ file, error = "" }) => error.replace(`read_record: ${file}: `, "");
+/** @param {Row} row */
+function failedElement(row) {
+  if (row.failed) return row.failed;
+  row.failed = make("li", { className: "failed" }, make("b", {}, row.label), removeButton(row), make("p", {}, reason(row)));
+  if (asks(row)) row.failed.append(retryForm(row));
+  row.failed.classList.toggle("asks", asks(row));
+  return row.failed;
+}
+
+/** @param {Row} row */
+function rowElement(row) {
+  const { measures, vertical, orientation } = /** @type {Motion} */ (row.motion);
+  if (vertical) {
+    const note = `vertical (${orientation}): left out; it acts once a horizontal component of its station is here`;
+    return make("li", { className: "aside" }, make("span", {}, `${row.label} `, make("small", {}, note)), removeButton(row));
+  }
+  const radio = make("input", { type: "radio", name: "record", checked: row === selected, onchange: () => select(row) });
+  const facts = [
+    shown(measures.pga, "acceleration"),
+    `${digits(measures.duration)} s`,
+    ...(row.joined?.planarId != null ? ["path"] : []),
+    ...(row.joined?.verticalId != null ? ["vertical"] : []),
+    ...(row.counts ? [] : ["not in the table"]),
+  ];
+  return make("li", {}, make("label", {}, radio, ` ${row.label} `, make("small", {}, facts.join(", "))), removeButton(row));
+}
+
+/** Why a file could not be read, in words of this page. @param {Row} row */
+const reason = ({ file, error = "" }) =>
+  error
+    .replace(`read_record: ${file}: `, "")
+    .replace(/: pass (units|dt), .*/s, "") // the page has fields
+    .replace(/; pass gaps to keep it as a straight line/, "")
+    .replace(/\bdt given\b/, "the time step entered")
+    .replace(/\bunits given\b/, "the units entered");
+
+/** What a message says that a file leaves open. @param {string} message */
+const asked = (message) => ({ units: /pass units/.test(message), dt: /pass dt/.test(message) });
 
 /** Whether a file leaves its units or its time step open. @param {Row} row */
-const asks = (row) => row.bytes !== undefined && /units|time step|\bdt\b/.test(reason(row));
+const asks = ({ bytes, error = "" }) => bytes !== undefined && Object.values(asked(error)).some(Boolean);
 
 /**
  * Asks for what a file leaves open.
  * @param {Row} row
  */
 function retryForm(row) {
-  const choice = make("select", {}, make("option", { value: "" }, "as the file states"));
-  for (const name of ["g", "m/s^2", "cm/s^2", "mm/s^2", "ft/s^2", "in/s^2"]) choice.append(make("option", {}, name));
-  const dt = make("input", { type: "number", min: "0", step: "any" });
+  const open = asked(row.error ?? "");
+  const stated = metadata ? statedOf(metadata, row.file) : {};
+  const choice = make("select", {}, make("option", { value: "" }, "choose"));
+  for (const name of UNIT_NAMES) choice.append(make("option", {}, name));
+  choice.value = stated.units ?? "";
+  const dt = make("input", { type: "number", min: "0", step: "any", value: stated.dt ?? "" });
   const form = make(
     "form",
     {},
-    make("label", {}, "units ", choice),
-    make("label", {}, "dt [s] ", dt),
+    ...(open.units ? [make("label", {}, "units ", choice)] : []),
+    ...(open.dt ? [make("label", {}, "time step [s] ", dt)] : []),
     make("button", {}, "Read"),
-    make("button", { className: "all", value: "all" }, "Read all that ask"),
   );
-  form.onsubmit = async (event) => {
+  form.onsubmit = (event) => {
     event.preventDefault();
-    const options = { units: choice.value, ...(dt.value ? { dt: Number(dt.value) } : {}) };
-    const all = /** @type {HTMLButtonElement | null} */ (event.submitter)?.value === "all";
-    /** @type {Row | undefined} */
-    let first;
-    for (const one of all ? rows.filter(asks) : [row]) {
-      const found = await addFile(one.file, /** @type {Uint8Array} */ (one.bytes), options, rows.indexOf(one));
-      first ??= found?.motion && found;
-    }
-    if (first) select(first);
-    else showRows();
+    answer([row]);
   };
+  row.entered = () => ({ ...(choice.value ? { units: choice.value } : {}), ...(dt.value ? { dt: Number(dt.value) } : {}) });
   return form;
 }
 
+const UNIT_NAMES = ["g", "m/s^2", "cm/s^2", "mm/s^2", "ft/s^2", "in/s^2"];
+
+/** Reads files again, each with what is entered for it. @param {Row[]} asking */
+async function answer(asking) {
+  const found = [];
+  for (const row of asking) {
+    const entered = row.entered?.() ?? {};
+    if (Object.keys(entered).length) found.push(await addFile(row.file, /** @type {Uint8Array} */ (row.bytes), entered, rows.indexOf(row)));
+  }
+  await join();
+  const first = found.find((row) => row);
+  if (first) select(first);
+  else showRows();
+}
+
+/** Takes a row from the list. @param {Row} row */
+function forget(row) {
+  rows.splice(rows.indexOf(row), 1);
+  if (row.motion) worker.discard([row.motion.id]);
+  if (row === generated) generated = null;
+}
+
 /** @param {Row} row */
-function removeRow(row) {
+async function removeRow(row) {
   const place = rows.indexOf(row);
-  rows.splice(place, 1);
-  const { id, verticalId, planarId } = row.motion ?? {};
-  worker.discard([id, verticalId, planarId].filter((one) => one != null));
-  if (row === selected) select(rows.slice(place).find((one) => one.motion) ?? rows.findLast((one) => one.motion) ?? null);
+  forget(row);
+  // A vertical component acts with the others of its station alone.
+  for (const other of rows.filter(({ motion }) => motion?.vertical && row.joined?.members.includes(motion.id)))
+    if (!rows.some((one) => one.joined?.members.includes(other.motion?.id ?? -1))) forget(other);
+  await join();
+  if (row === selected) select(rows.slice(place).find(slides) ?? rows.findLast(slides) ?? null);
   else showRows();
   if (!element("many").hidden) slideMany();
 }
@@ -1030,22 +1305,41 @@ function removeRow(row) {
 /** The motion of the generator is one row, which changes with its numbers. @type {Row | null} */
 let generated = null;
 
+/** @param {import("./sources.js").Generator} made  @returns {Record<string, number>} */
+const valuesOf = (made) => Object.fromEntries(made.parameters.map(({ key, value }) => [key, Number(others[key] ?? value)]));
+
 const generate = latest(async () => {
-  const made = /** @type {NonNullable<typeof generator>} */ (generator);
-  const values = Object.fromEntries(made.parameters.map(({ key, value }) => [key, Number(others[key] ?? value)]));
+  const made = generator;
+  if (!made) return;
+  const values = valuesOf(made);
   try {
     const motion = await worker.generate(made.name, values);
     const old = generated;
-    generated = { label: made.label, file: "", motion, source: () => ({ file: null, python: made.python(values) }) };
-    const place = old ? rows.indexOf(old) : -1;
-    if (place >= 0) rows[place] = generated;
+    const said = made.parameters.map((one) => `${one.label} ${shown(values[one.key] ?? NaN, one.quantity ?? "none")}${one.unit ? ` ${one.unit}` : ""}`);
+    generated = { label: `${made.label}, ${said.join(", ")}`, file: "", motion, counts: false, source: () => ({ files: [], python: made.python(values) }) };
+    const aside = rows.findIndex((row) => row === old || (row.motion && !row.counts));
+    const gone = aside >= 0 ? rows[aside] : undefined;
+    if (gone) rows[aside] = generated;
     else rows.unshift(generated);
-    if (old?.motion) worker.discard([old.motion.id]);
+    if (gone?.motion) worker.discard([gone.motion.id]);
     select(generated);
   } catch (error) {
-    element("trouble").textContent = /** @type {Error} */ (error).message;
+    refuse(/** @type {Error} */ (error).message);
   }
 });
+
+/** The record with which the page opens, if it holds one: it does not count. */
+async function showSample() {
+  const { name, dt } = element("sample").dataset;
+  const bytes = unpacked("sample");
+  const [motion] = bytes.length ? await worker.read(name, bytes, { units: "g", dt: Number(dt) }) : [];
+  if (!motion) return false;
+  const source = () => ({ files: [`sample:${name}`], python: [`motion = ss.sample_record("${name}")`] });
+  const row = { label: `${name.replaceAll("_", " ")} (sample record)`, file: "", motion, counts: false, source };
+  rows.unshift(row);
+  select(row);
+  return true;
+}
 
 // ---- the form
 
@@ -1054,17 +1348,27 @@ function linkText() {
 }
 
 function showGenerator() {
+  generatorTrouble = "";
   element("generator-name").value = generator?.name ?? "";
+  element("generate").hidden = !generator;
   element("generator-values").replaceChildren(
-    ...(generator?.parameters ?? []).map((one) =>
-      entry(one.label, one.unit, others[one.key] ?? String(one.value), "", (text) => {
-        const value = Number(text);
-        if (text === "" || !(value >= one.min && value <= one.max)) return false;
-        others[one.key] = text;
+    ...(generator?.parameters ?? []).map((one) => {
+      const of = one.quantity ? unit(one.quantity) : { name: one.unit ?? "", size: 1 };
+      const held = String(toUnit(Number(others[one.key] ?? one.value), of));
+      const made = entry(one.label, of.name, held, "", (text) => {
+        const value = fromUnit(Number(text), of);
+        const valid = text !== "" && value >= one.min && value <= one.max;
+        const bounds = [one.min, one.max].map((bound) => digits(bound / of.size));
+        const remark = valid ? "" : `${one.label} must be between ${bounds.join(" and ")} ${of.name}`;
+        /** @type {HTMLElement} */ (made.querySelector(".remark")).textContent = remark;
+        generatorTrouble = remark;
+        if (!valid) return changed();
+        others[one.key] = String(value);
         generate();
-        return true;
-      }),
-    ),
+      });
+      made.querySelector(".remark")?.classList.add("wrong");
+      return made;
+    }),
   );
 }
 
@@ -1073,13 +1377,34 @@ function showGenerator() {
  * @param {string} unitName
  * @param {string} value
  * @param {string} hint
- * @param {(text: string) => boolean} onInput  returns whether the text is valid
+ * @param {(text: string, input: HTMLInputElement) => void} onInput
  */
 function entry(label, unitName, value, hint, onInput, type = "number") {
   const input = make("input", { type, step: "any", value, title: hint });
-  input.oninput = () => input.setCustomValidity(onInput(input.value) ? "" : "out of range");
-  return make("label", { title: hint }, make("span", {}, label), input, make("small", {}, unitName));
+  input.oninput = () => onInput(input.value, input);
+  return make("label", { title: hint }, make("span", {}, label), input, make("small", {}, unitName), make("small", { className: "remark" }));
 }
+
+/** Settings whose fields do not hold numbers. @type {Set<keyof Settings>} */
+const unreadable = new Set();
+
+/** @param {number | readonly number[]} value */
+const listOf = (value) => (typeof value === "number" ? (Number.isNaN(value) ? [] : [value]) : value);
+
+/** @param {Field} field */
+const unitOfField = ({ quantity, unit: name = "" }) => (quantity ? unit(quantity) : { name, size: 1 });
+
+/** Values of a setting in its unit. @param {Field} field  @param {readonly number[]} values */
+function inField(field, values) {
+  const of = unitOfField(field);
+  return values.map((value) => toUnit(value, of)).join(" ") + (of.name ? ` ${of.name}` : "");
+}
+
+/** @param {Settings} s */
+const inWords = (s) => described(s, (field) => inField(field, listOf(s[field.key])));
+
+/** The coefficients of the surfaces as they were entered: the slider scales them. */
+const typedMus = () => (settings.mus.length ? settings.mus : listOf(FIELDS.find(({ key }) => key === "mus")?.value ?? []));
 
 function showForm() {
   element("law").value = String(settings.law);
@@ -1096,26 +1421,28 @@ function showForm() {
  * @param {Field} field
  * @param {Settings} s
  */
-function entered({ key }, s) {
-  const value = s[key];
-  if (typeof value !== "number") return value.join(" ");
-  return Number.isNaN(value) ? "" : String(value);
-}
+const entered = (field, s) =>
+  listOf(s[field.key])
+    .map((value) => toUnit(value, unitOfField(field)))
+    .join(" ");
 
 /**
  * @param {Field} field
- * @param {string} text
- * @returns {boolean}  whether it is valid
+ * @param {HTMLInputElement} input
  */
-function enter({ key }, text) {
-  const values = listed(text);
-  const isList = typeof settings[key] !== "number";
-  if (!values.every(Number.isFinite) || (!isList && values.length > 1)) return false;
-  if (key === "mus" && values.length) setMu(Math.max(...values));
-  /** @type {any} */ (settings)[key] = isList ? values : (values[0] ?? NaN);
-  changed();
+function enter(field, input) {
+  const { key } = field;
+  const values = listed(input.value);
+  const isList = typeof NOT_GIVEN[key] !== "number";
+  const valid = values.every(Number.isFinite) && (isList || values.length <= 1) && !input.validity.badInput;
+  unreadable[valid ? "delete" : "add"](key);
+  if (valid) {
+    const si = values.map((value) => fromUnit(value, unitOfField(field)));
+    /** @type {any} */ (settings)[key] = isList ? si : (si[0] ?? NaN);
+    if (key === "mus" && si.length) setMu(Math.max(...si));
+  }
   if (FIELDS.some((one) => one.needs?.includes(key))) refreshFields();
-  return true;
+  changed();
 }
 
 function showFields() {
@@ -1133,7 +1460,8 @@ function refreshFields() {
   fields.forEach((field, i) => {
     if (place.children[i]?.dataset.key === field.key) return;
     const type = typeof full[field.key] === "number" ? "number" : "text";
-    const made = entry(field.label, field.unit, entered(field, full), field.hint, (text) => enter(field, text), type);
+    const held = entered(field, { ...full, mus: typedMus() });
+    const made = entry(field.label, unitOfField(field).name, held, field.hint, (_, input) => enter(field, input), type);
     made.dataset.key = field.key;
     place.insertBefore(made, place.children[i] ?? null);
   });
@@ -1141,18 +1469,11 @@ function refreshFields() {
 
 /** @param {number} mu */
 function setMu(mu) {
-  if (!(mu >= 0)) return;
   settings.mu = mu;
+  unreadable.delete("mu");
   if (document.activeElement !== element("mu")) element("mu").value = String(mu);
   element("mu-slider").value = String(mu);
-  if (settings.mus.length || LAWS[settings.law]?.name === "pendulum") showOthers();
   changed();
-}
-
-/** The coefficients of the surfaces, which follow mu, unless they are being entered. */
-function showOthers() {
-  const input = element("fields").querySelectorAll("input")[1];
-  if (input && document.activeElement !== input) input.value = completed(settings).mus.join(" ");
 }
 
 function listen() {
@@ -1172,11 +1493,13 @@ function listen() {
   };
   element("law").onchange = () => {
     settings.law = Number(element("law").value);
+    unreadable.clear();
     showFields();
-    changed();
+    if (LAWS[settings.law]?.name === "pendulum") setMu(Math.max(...typedMus()));
+    else changed();
   };
   element("mu-slider").oninput = () => setMu(Number(element("mu-slider").value));
-  element("mu").oninput = () => element("mu").value !== "" && setMu(Number(element("mu").value));
+  element("mu").oninput = () => setMu(element("mu").value === "" ? NaN : Number(element("mu").value));
   for (const flag of /** @type {const} */ (["pendulum", "vertical", "clipped"]))
     element(flag).onchange = () => {
       settings[flag] = element(flag).checked ? 1 : 0;
@@ -1188,6 +1511,8 @@ function listen() {
     choice.onchange = () => {
       /** @type {any} */ (units)[quantity] = choice.value;
       showRows();
+      showFields();
+      showGenerator();
       changed();
     };
   }
@@ -1215,7 +1540,7 @@ function listen() {
       if (step === undefined) return;
       event.preventDefault();
       const far = event.key.startsWith("Page");
-      if (spectrum === "sliding" || spectrum === "response") return moveOnSpectrum(spectrum, far ? 10 * step : step);
+      if (spectrum === "sliding" || spectrum === "response" || spectrum === "curves") return moveOnSpectrum(spectrum, far ? 10 * step : step);
       const last = response.time.length - 1;
       const index = Math.min(last, Math.max(0, indexAt(response.time, now) + (far ? 50 * step : step)));
       goTo(response.time[index] ?? 0);
@@ -1237,6 +1562,18 @@ function listen() {
   element("response-csv").onclick = downloadResponse;
   element("path-csv").onclick = downloadPath;
   element("many-csv").onclick = downloadMany;
+  element("curves-csv").onclick = downloadCurves;
+  element("asking-read").onclick = () => answer(rows.filter(asks));
+  element("asking-units").onchange = () => {
+    for (const one of element("asking").querySelectorAll("select")) one.value = element("asking-units").value;
+  };
+  element("generate").onclick = () => {
+    if (!generated) return;
+    generated.counts = true;
+    generated = null;
+    showRows();
+    if (!element("many").hidden) slideMany();
+  };
   element("reading-cancel").onclick = () => (readingStopped = true);
   element("many-cancel").onclick = () => (cancelled = true);
   element("view-one").onclick = () => view(false);
@@ -1260,6 +1597,7 @@ function listen() {
 function resize() {
   measureScene(element("scene"));
   for (const plot of Object.values(plots)) plot.resize();
+  if (!element("many").hidden) curvePlot?.resize();
   setTime(now);
 }
 
@@ -1292,25 +1630,28 @@ function downloadCsv() {
   const rows = Array.from(time, (t, i) =>
     [t, acceleration[i], velocity[i], displacement[i], force[i]].map((value) => value ?? NaN),
   );
-  const comments = [
+  const notes = [
     `stickslip: ${selected.label}; ${toLink(completed(settings))}`,
-    ...described(numbers()),
+    ...comments(numbers()),
   ];
   const header = ["time_s", "ground_acceleration_m_s2", "velocity_m_s", "displacement_m", "force_m_s2"];
-  download(`${fileName(selected)}.csv`, csv(header, rows, comments), "text/csv");
+  download(`${fileName(selected)}.csv`, csv(header, rows, notes), "text/csv");
 }
 
 // ---- start
 
 async function start() {
   element("law").append(...LAWS.map(({ label }, i) => make("option", { value: String(i) }, label)));
+  element("asking-units").append(...UNIT_NAMES.map((name) => make("option", {}, name)));
   element("generator-name").append(...GENERATORS.map(({ name, label }) => make("option", { value: name }, label)));
   element("mounting").open = innerWidth > 800;
   listen();
   showForm();
   showGenerator();
-  const packed = fromText((element("library").textContent ?? "").trim());
-  await worker.load(/** @type {Uint8Array<ArrayBuffer>} */ (decompress(packed)));
+  ranges = await worker.load(unpacked("library"));
+  if (!generator && (await showSample())) return;
+  generator ??= GENERATORS[0];
+  showGenerator();
   generate();
 }
 

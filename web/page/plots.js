@@ -2,6 +2,8 @@
 
 import uPlot from "uplot";
 
+import { digits } from "./units.js";
+
 /** @typedef {(u: uPlot, ctx: CanvasRenderingContext2D) => void} Draw */
 
 /** What `color` found: to ask again would compute all styles, each time that a text has changed. @type {Map<string, string>} */
@@ -32,7 +34,7 @@ function none(length) {
 }
 
 const HEIGHT = 150;
-const CURVE_HEIGHT = 240;
+export const CURVE_HEIGHT = 240;
 const FONT = "12px system-ui, sans-serif";
 
 /** @param {boolean} time  whether that over which the lines are drawn is the time */
@@ -46,11 +48,15 @@ const axes = (time) => {
   };
   const seconds = (/** @type {any} */ _, /** @type {number[]} */ ticks) =>
     ticks.map((t, i) => (i === ticks.length - 1 ? `${t} s` : String(t)));
+  const plain = (/** @type {any} */ _, /** @type {number[]} */ ticks) => ticks.map((tick) => (tick === null ? null : digits(tick)));
   return [
-    { ...common, size: 28, ...(time ? { values: seconds } : {}) },
-    { ...common, size: 56 },
+    { ...common, size: 28, values: time ? seconds : plain },
+    { ...common, size: 56, values: plain },
   ];
 };
+
+/** A scale as wide as it is set. @param {boolean} logarithmic  @returns {uPlot.Scale} */
+const scale = (logarithmic) => (logarithmic ? { distr: 3, range: (_, low, high) => [low, high] } : { distr: 1 });
 
 /**
  * Draws at once, because paper does not wait.
@@ -77,16 +83,23 @@ export class LinePlot {
   #marks = [];
   /** @type {HTMLElement[]} */
   #marked = [];
+  #logarithmic;
+  #height;
 
   /**
    * @param {HTMLElement} container
    * @param {string[]} strokes  names of the colors; the second line is dashed
    * @param {(index: number | null) => void} onCursor
    * @param {"time" | "number" | "logarithm"} [over]  that over which the lines are drawn
-   * @param {(range: [number, number] | null) => void} [onWindow]  where the mouse draws a window, or wants none
+   * @param {{onWindow?: (range: [number, number] | null) => void, logarithmic?: boolean, dashed?: boolean, height?: number}} [how]  where
+   *   the mouse draws a window, or wants none; whether the values have a logarithmic scale, which omits those that are not
+   *   positive; whether the lines after the first are dashed, instead of
+   *   the last being thick; [pixels]
    */
-  constructor(container, strokes, onCursor, over = "time", onWindow = () => {}) {
+  constructor(container, strokes, onCursor, over = "time", { onWindow = () => {}, logarithmic = false, dashed = true, height = HEIGHT } = {}) {
     this.#container = container;
+    this.#logarithmic = logarithmic;
+    this.#height = height;
     const draw = (/** @type {() => Draw} */ what) => (/** @type {uPlot} */ u) => {
       const { ctx, bbox } = u;
       ctx.save();
@@ -101,10 +114,10 @@ export class LinePlot {
     this.#plot = new uPlot(
       {
         width: container.clientWidth || 300,
-        height: HEIGHT,
+        height,
         padding: [8, over === "time" ? 24 : 12, 0, 0], // half of the last label
         legend: { show: false },
-        scales: { x: { time: false, distr: over === "logarithm" ? 3 : 1 } },
+        scales: { x: { time: false, ...scale(over === "logarithm") }, y: scale(logarithmic) },
         axes: axes(over === "time"),
         cursor: {
           y: false,
@@ -118,9 +131,9 @@ export class LinePlot {
           {},
           ...strokes.map((stroke, i) => ({
             stroke: () => color(stroke),
-            width: 1.25,
+            width: dashed || i < strokes.length - 1 ? 1.25 : 2.5,
             points: { show: false },
-            ...(i ? { dash: [6, 3] } : {}),
+            ...(i && dashed ? { dash: [6, 3] } : {}),
           })),
         ],
         hooks: {
@@ -172,9 +185,14 @@ export class LinePlot {
         if (value > high) high = value;
       }
     if (!(low <= high)) [low, high] = [least, most];
-    const room = 0.06 * (high - low || 1);
+    let room = 0.06 * (high - low || 1);
+    /** @type {ArrayLike<number | null>[]} */
+    let filled = lines.map((values) => (values.length ? values : none(time.length)));
+    if (this.#logarithmic) {
+      filled = lines.map((values) => Array.from(values, (value) => (value > 0 ? value : null)));
+      [low, high, room] = [high / 1e4, high || 1, 0];
+    }
     this.#plot.batch(() => {
-      const filled = lines.map((values) => (values.length ? values : none(time.length)));
       this.#plot.setData(/** @type {any} */ ([time, ...filled]), false);
       lines.forEach((values, i) => {
         const show = values.length > 0;
@@ -224,13 +242,15 @@ export class LinePlot {
   }
 
   resize() {
-    resize(this.#plot, this.#container, HEIGHT);
+    resize(this.#plot, this.#container, this.#height);
   }
 
   destroy() {
     this.#plot.destroy();
   }
 }
+
+/** A point of a curve with its label. @typedef {{name: string, x: number, y: number, label: string}} Place */
 
 /** A curve in a plane, with a mark on it: the force over the displacement. */
 export class CurvePlot {
@@ -239,12 +259,17 @@ export class CurvePlot {
   #container;
   #mark = document.createElement("div");
   #marked = [NaN, NaN];
+  #map = document.createElement("div"); // labels, and the arrow to the north
+  /** @type {Place[]} */
+  #places = [];
+  #names = ["", ""];
 
   /**
    * @param {HTMLElement} container
    * @param {string} stroke
+   * @param {boolean} [named]  whether the axes have names
    */
-  constructor(container, stroke) {
+  constructor(container, stroke, named = false) {
     this.#container = container;
     this.#plot = new uPlot(
       {
@@ -254,7 +279,7 @@ export class CurvePlot {
         padding: [8, 12, 0, 0],
         legend: { show: false },
         scales: { x: { time: false } },
-        axes: axes(false),
+        axes: axes(false).map((axis, i) => (named ? { ...axis, label: () => this.#names[i] ?? "", labelSize: 20, labelFont: FONT } : axis)),
         cursor: { show: false },
         hooks: { draw: [() => this.#place()] }, // the scales may be new
         series: [
@@ -286,7 +311,7 @@ export class CurvePlot {
       container,
     );
     this.#mark.className = "mark";
-    this.#plot.over.append(this.#mark);
+    this.#plot.over.append(this.#map, this.#mark);
   }
 
   /**
@@ -304,22 +329,54 @@ export class CurvePlot {
     const [left, top] = [this.#plot.valToPos(x, "x"), this.#plot.valToPos(y, "y")];
     this.#mark.hidden = !Number.isFinite(left + top);
     if (!this.#mark.hidden) this.#mark.style.transform = `translate(${left}px, ${top}px)`;
+    const wide = this.#plot.over.clientWidth;
+    this.#places.forEach(({ x, y }, i) => {
+      const [made, at] = [/** @type {HTMLElement} */ (this.#map.children[i]), this.#plot.valToPos(x, "x")];
+      made.classList.toggle("left", at > wide / 2);
+      made.style.transform = `translate(${at}px, ${this.#plot.valToPos(y, "y")}px)`;
+    });
   }
 
   /**
    * @param {Float64Array} xs
    * @param {Float64Array} ys
-   * @param {boolean} [equal]  whether both axes have one scale
    */
-  show(xs, ys, equal = false) {
-    this.#plot.setData(/** @type {any} */ ([null, [xs, ys]]), !equal);
-    if (!equal) return;
+  show(xs, ys) {
+    this.#plot.setData(/** @type {any} */ ([null, [xs, ys]]));
+  }
+
+  /**
+   * A curve as on a map, with one scale to the right and up.
+   * @param {Float64Array} xs
+   * @param {Float64Array} ys
+   * @param {{right: string, up: string, marks: Place[], north: number}} of  names of the axes; marked points; the azimuth of the
+   *   upward direction, NaN if it has none
+   */
+  map(xs, ys, { right, up, marks, north }) {
+    this.#names = [right, up];
+    this.#places = marks;
+    this.#map.replaceChildren(
+      ...marks.map(({ name, label }) => {
+        const made = document.createElement("div");
+        made.className = `place ${name}`;
+        made.append(Object.assign(document.createElement("span"), { textContent: label }));
+        return made;
+      }),
+    );
+    if (!Number.isNaN(north)) {
+      const arrow = Object.assign(document.createElement("div"), { className: "north", textContent: "N" });
+      arrow.style.setProperty("--turn", `${-north}deg`);
+      this.#map.append(arrow);
+    }
+    this.#plot.setData(/** @type {any} */ ([null, [xs, ys]]), false);
     const [wide, high] = [this.#plot.over.clientWidth, this.#plot.over.clientHeight];
-    const largest = (/** @type {Float64Array} */ values) => values.reduce((most, value) => Math.max(most, Math.abs(value)), 1e-9);
-    const scale = 0.55 * Math.max(largest(xs) / (wide / 2), largest(ys) / (high / 2));
+    const extent = (/** @type {Float64Array} */ values) => [values.reduce((a, b) => Math.min(a, b), 0), values.reduce((a, b) => Math.max(a, b), 0)];
+    const [[left = 0, far = 0], [low = 0, top = 0]] = [extent(xs), extent(ys)];
+    const scale = 0.62 * Math.max((far - left) / wide, (top - low) / high, 1e-9);
+    const [x, y] = [(left + far) / 2, (low + top) / 2];
     this.#plot.batch(() => {
-      this.#plot.setScale("x", { min: -scale * wide, max: scale * wide });
-      this.#plot.setScale("y", { min: -scale * high, max: scale * high });
+      this.#plot.setScale("x", { min: x - scale * wide, max: x + scale * wide });
+      this.#plot.setScale("y", { min: y - scale * high, max: y + scale * high });
     });
   }
 
@@ -333,34 +390,23 @@ export class CurvePlot {
 }
 
 /**
- * A horizontal line, with a label at its right end.
+ * A horizontal line.
  * @param {uPlot} u
  * @param {CanvasRenderingContext2D} ctx
  * @param {number} value
- * @param {{stroke: string, dash?: number[], label?: string, below?: boolean, indent?: number}} how  `indent` of the label from the
- *   right end [pixels]
+ * @param {{stroke: string, dash: number[]}} how
  */
-export function levelLine(u, ctx, value, { stroke, dash = [], label = "", below = false, indent = 4 }) {
+export function levelLine(u, ctx, value, { stroke, dash }) {
   const ratio = devicePixelRatio;
   const y = u.valToPos(value, "y", true) / ratio;
-  const [left, right] = [u.bbox.left / ratio, (u.bbox.left + u.bbox.width) / ratio];
   ctx.strokeStyle = color(stroke);
-  ctx.fillStyle = color(stroke);
   ctx.setLineDash(dash);
   ctx.lineWidth = 1;
   ctx.beginPath();
-  ctx.moveTo(left, y);
-  ctx.lineTo(right, y);
+  ctx.moveTo(u.bbox.left / ratio, y);
+  ctx.lineTo((u.bbox.left + u.bbox.width) / ratio, y);
   ctx.stroke();
-  ctx.textAlign = "right";
-  ctx.textBaseline = "alphabetic";
-  const place = /** @type {const} */ ([label, right - indent, below ? y + 13 : y - 4]);
-  // On what is drawn there.
   ctx.setLineDash([]);
-  ctx.strokeStyle = color("paper");
-  ctx.lineWidth = 3;
-  ctx.strokeText(...place);
-  ctx.fillText(...place);
 }
 
 /**

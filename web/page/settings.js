@@ -1,8 +1,9 @@
 // What the page lets its reader choose: laws and mountings by the names of the command's options, the link that holds
 // them, and the command and the Python lines that give the same numbers.
 
-/** @import { Settings } from "./library.js" */
+/** @import { Range, Settings } from "./library.js" */
 /** @import { Source } from "./sources.js" */
+/** @import { Quantity } from "./units.js" */
 
 /** Settings in which nothing is given. @type {Settings} */
 export const NOT_GIVEN = Object.freeze({
@@ -54,7 +55,11 @@ export const LAWS = /** @type {const} */ ([
  * @typedef {Object} Field
  * @property {keyof Settings} key
  * @property {string} label
- * @property {string} unit
+ * @property {string} [unit]          where it is always the same
+ * @property {Quantity} [quantity]    whose chosen unit it has
+ * @property {readonly [number, number]} valid    least and largest value; any between is allowed
+ * @property {boolean} [open]         the least value itself is not allowed
+ * @property {string} [range]         the library's name of the range outside of which another unit is more probable
  * @property {number | readonly number[]} [value]  where the law needs it and the link has none
  * @property {string[]} [laws]    that have it; all if not given
  * @property {(keyof Settings)[]} [needs]  the settings without any of which it has no meaning
@@ -63,34 +68,68 @@ export const LAWS = /** @type {const} */ ([
 
 const SINGLE = LAWS.map(({ name }) => /** @type {string} */ (name)).filter((name) => name !== "pendulum");
 
+const FRICTION = /** @type {const} */ ({ valid: [0, Infinity], range: "coefficient of friction" });
+const LENGTH = /** @type {const} */ ({ quantity: "length", valid: [0, Infinity], open: true, range: "length" });
+/** What is above 0. @param {string} range */
+const positive = (range) => /** @type {const} */ ({ valid: [0, Infinity], open: true, range });
+
+/** The coefficient that the slider moves. @type {Field} */
+export const MU = { key: "mu", label: "\u03bc", ...FRICTION, hint: "" };
+
 /** The numbers beside mu, in the order of the form. @type {readonly Field[]} */
 export const FIELDS = Object.freeze([
-  { key: "radii", label: "radii", unit: "m", value: [0.3937, 3.7465, 3.7465], laws: ["pendulum"], hint: "effective; lower and upper, or inner, lower and upper outer, or inner, two middle, two outer" },
-  { key: "mus", label: "\u03bc of each", unit: "", value: [0.01, 0.04, 0.08], laws: ["pendulum"], hint: "of the surfaces; the slider is the largest and scales all" },
-  { key: "capacities", label: "capacities", unit: "m", laws: ["pendulum"], hint: "travel of each surface to its stop; empty for none" },
-  { key: "reach", label: "reach", unit: "m", value: 0.05, laws: ["caster"], hint: "distance over which the level falls" },
-  { key: "mu_fast", label: "\u03bc fast", unit: "", value: 0.15, laws: ["speed"], hint: "at high speed; \u03bc is that at rest" },
-  { key: "rate", label: "rate", unit: "s/m", value: 20, laws: ["speed"], hint: "of the change with the speed" },
-  { key: "mu_residual", label: "\u03bc residual", unit: "", value: 0.05, laws: ["degrading"], hint: "after the distance" },
-  { key: "distance", label: "distance", unit: "m", value: 0.1, laws: ["degrading"], hint: "slid until \u03bc is residual" },
-  { key: "mu_static", label: "\u03bc static", unit: "", value: 0.15, laws: ["stribeck"], hint: "at rest, at least \u03bc, which is that at high speed" },
-  { key: "stribeck_speed", label: "speed", unit: "m/s", value: 0.05, laws: ["stribeck"], hint: "at which 63 % of the difference is gone" },
-  { key: "exponent", label: "exponent", unit: "", value: 1, laws: ["stribeck"], hint: "a whole number from 1 to 31" },
-  { key: "static_pressure", label: "pressure", unit: "Pa", value: 50e6, laws: ["kumar"], hint: "on the sliding surface under the weight alone" },
-  { key: "reference_pressure", label: "reference p", unit: "Pa", value: 50e6, laws: ["kumar"], hint: "pressure at which \u03bc holds, at high speed and 20 \u00b0C" },
-  { key: "contact_radius", label: "contact radius", unit: "m", value: 0.2, laws: ["kumar"], hint: "of the slider, which heats the middle of the surface while it covers it" },
-  { key: "temperature", label: "temperature", unit: "\u00b0C", value: 20, laws: ["kumar"], hint: "of the surface at the start" },
-  { key: "rate", label: "rate", unit: "s/m", value: 100, laws: ["kumar"], hint: "of the change with the speed; \u03bc at rest is half that at high speed" },
-  { key: "diffusivity", label: "diffusivity", unit: "m\u00b2/s", value: 4.44e-6, laws: ["kumar"], hint: "thermal, of the steel" },
-  { key: "conductivity", label: "conductivity", unit: "W/(m K)", value: 18, laws: ["kumar"], hint: "thermal, of the steel" },
-  { key: "mu_static", label: "\u03bc static", unit: "", hint: "at rest, at least \u03bc", laws: ["coulomb", "caster", "one-way", "speed", "degrading"] },
-  { key: "period", label: "period", unit: "s", hint: "of the mass on its spring; empty without a spring" },
-  { key: "damping_ratio", label: "damping ratio", unit: "", needs: ["period"], hint: "of a damper beside the spring" },
-  { key: "slope", label: "slope", unit: "degrees", laws: SINGLE, hint: "of the ground; downhill is forward" },
-  { key: "stop_gap", label: "stop gap", unit: "m", hint: "from the start to a stop, both ways" },
-  { key: "restitution", label: "restitution", unit: "", value: 0.5, needs: ["stop_gap", "capacities"], hint: "speed after an impact over that before" },
-  { key: "scale", label: "scale", unit: "", value: 1, hint: "factor on the ground acceleration" },
+  { key: "radii", label: "radii", quantity: "length", ...positive("radius"), value: [0.3937, 3.7465, 3.7465], laws: ["pendulum"], hint: "effective; lower and upper, or inner, lower and upper outer, or inner, two middle, two outer" },
+  { key: "mus", label: "\u03bc of each", ...FRICTION, value: [0.01, 0.04, 0.08], laws: ["pendulum"], hint: "of the surfaces; the slider is the largest and scales all" },
+  { key: "capacities", label: "capacities", ...LENGTH, laws: ["pendulum"], hint: "travel of each surface to its stop; empty for none" },
+  { key: "reach", label: "reach", ...LENGTH, value: 0.05, laws: ["caster"], hint: "distance over which the level falls" },
+  { key: "mu_fast", label: "\u03bc fast", ...FRICTION, value: 0.15, laws: ["speed"], hint: "at high speed; \u03bc is that at rest" },
+  { key: "rate", label: "rate", unit: "s/m", valid: [0, Infinity], range: "rate", value: 20, laws: ["speed"], hint: "of the change with the speed" },
+  { key: "mu_residual", label: "\u03bc residual", ...FRICTION, value: 0.05, laws: ["degrading"], hint: "after the distance" },
+  { key: "distance", label: "distance", quantity: "length", ...positive("distance slid"), value: 0.1, laws: ["degrading"], hint: "slid until \u03bc is residual" },
+  { key: "mu_static", label: "\u03bc static", ...FRICTION, value: 0.15, laws: ["stribeck"], hint: "at rest, at least \u03bc, which is that at high speed" },
+  { key: "stribeck_speed", label: "speed", quantity: "velocity", ...positive("sliding velocity"), value: 0.05, laws: ["stribeck"], hint: "at which 63 % of the difference is gone" },
+  { key: "exponent", label: "exponent", valid: [1, 31], value: 1, laws: ["stribeck"], hint: "a whole number from 1 to 31" },
+  { key: "static_pressure", label: "pressure", unit: "Pa", ...positive("pressure"), value: 50e6, laws: ["kumar"], hint: "on the sliding surface under the weight alone" },
+  { key: "reference_pressure", label: "reference p", unit: "Pa", ...positive("pressure"), value: 50e6, laws: ["kumar"], hint: "pressure at which \u03bc holds, at high speed and 20 \u00b0C" },
+  { key: "contact_radius", label: "contact radius", ...LENGTH, value: 0.2, laws: ["kumar"], hint: "of the slider, which heats the middle of the surface while it covers it" },
+  { key: "temperature", label: "temperature", unit: "\u00b0C", valid: [-273.15, Infinity], range: "temperature", value: 20, laws: ["kumar"], hint: "of the surface at the start" },
+  { key: "rate", label: "rate", unit: "s/m", valid: [0, Infinity], range: "rate", value: 100, laws: ["kumar"], hint: "of the change with the speed; \u03bc at rest is half that at high speed" },
+  { key: "diffusivity", label: "diffusivity", unit: "m\u00b2/s", ...positive("diffusivity"), value: 4.44e-6, laws: ["kumar"], hint: "thermal, of the steel" },
+  { key: "conductivity", label: "conductivity", unit: "W/(m K)", ...positive("conductivity"), value: 18, laws: ["kumar"], hint: "thermal, of the steel" },
+  { key: "mu_static", label: "\u03bc static", ...FRICTION, hint: "at rest, at least \u03bc", laws: ["coulomb", "caster", "one-way", "speed", "degrading"] },
+  { key: "period", label: "period", unit: "s", ...positive("period"), hint: "of the mass on its spring; empty without a spring" },
+  { key: "damping_ratio", label: "damping ratio", valid: [0, Infinity], range: "damping ratio", needs: ["period"], hint: "of a damper beside the spring" },
+  { key: "slope", label: "slope", unit: "degrees", valid: [-90, 90], range: "slope", laws: SINGLE, hint: "of the ground; downhill is forward" },
+  { key: "stop_gap", label: "stop gap", ...LENGTH, hint: "from the start to a stop, both ways" },
+  { key: "restitution", label: "restitution", valid: [0, 1], value: 0.5, needs: ["stop_gap", "capacities"], hint: "speed after an impact over that before" },
+  { key: "scale", label: "scale", valid: [-Infinity, Infinity], value: 1, hint: "factor on the ground acceleration" },
 ]);
+
+/**
+ * What is wrong with a value, or hard to believe.
+ * @param {Field} field
+ * @param {Settings} settings
+ * @param {(value: number) => string} shown  with its unit
+ * @param {Record<string, Range>} ranges     of the library
+ * @returns {{text: string, refused: boolean} | null}
+ */
+export function remark({ key, label, valid: [least, most], open = false, range = "" }, settings, shown, ranges) {
+  const value = settings[key];
+  const low = key === "mu_static" ? Math.max(least, settings.mu) : least; // at rest friction is at least that in motion
+  for (const one of typeof value === "number" ? [value] : value) {
+    if (Number.isNaN(one) && key !== "mu") continue; // not given
+    const whole = key !== "exponent" || Number.isInteger(one);
+    if (!(one >= low && one <= most && Number.isFinite(one) && whole) || (open && one === low)) {
+      const range = most < Infinity ? `between ${shown(low)} and ${shown(most)}` : low > -Infinity ? `${open ? "above" : "at least"} ${shown(low)}` : "a number";
+      const got = Number.isNaN(one) ? "" : `, got ${shown(one)}`;
+      return { text: `${label} must be ${key === "exponent" ? "a whole number " : ""}${range}${got}`, refused: true };
+    }
+    const { bounds: [small, large] = [0, Infinity], usual: [from, to] = [0, 0], meant = 0, where = "" } = ranges[range] ?? {};
+    if (one > 0 && one < meant && (one < small || one >= large))
+      return { text: `${shown(one)} is outside ${shown(from)} to ${shown(to)}, the range of ${where}: is its unit right?`, refused: false };
+  }
+  return null;
+}
 
 /**
  * Whether a setting has a value.
@@ -190,11 +229,11 @@ export const quoted = (text) => (/^[\w@%+=:,./-]+$/.test(text) ? text : `'${text
 
 /**
  * The words that name a record to the command.
- * @param {Source} source  of a file
+ * @param {Source} source  of files
  */
-function record({ file, units, dt, component }) {
+function record({ files, units, dt, component }) {
   return [
-    quoted(file ?? ""),
+    ...files.map(quoted),
     ...(units ? ["--units", quoted(units)] : []),
     ...(dt ? ["--dt", dt] : []),
     ...(component ? ["--component", quoted(component)] : []),
@@ -220,7 +259,7 @@ export const PERIODS = Float64Array.from({ length: 100 }, (_, i) => 10 ** (i / 3
  * @returns {string | null}
  */
 export function spectrumCommand(source, damping, scale) {
-  if (source.file === null) return null;
+  if (source.files.length === 0) return null;
   const words = ["stickslip spectrum", ...record(source), "--damping", damping];
   if (scale !== 1) words.push(`--scale=${scale}`);
   return [...words, "--csv response_spectrum.csv"].join(" ");
@@ -241,6 +280,15 @@ export function spectrumPython(source, damping, scale) {
   ].join("\n");
 }
 
+/** Settings in words, for a heading. @param {Settings} s  @param {(field: Field) => string} shown  a value with its unit */
+export const described = (s, shown) =>
+  [
+    `${LAWS[s.law]?.label}, \u03bc ${s.mu}`,
+    ...FIELDS.filter((field) => field.key !== "scale" && applies(field, s) && given(s, field.key)).map((field) => `${field.label} ${shown(field)}`),
+    ...(s.pendulum ? ["the spring is a pendulum"] : []),
+    ...(s.scale === 1 ? [] : [`scaled by ${s.scale}`]),
+  ].join(", ");
+
 const COMMAND_LAWS = ["coulomb", "caster", "one-way", "pendulum"];
 
 /**
@@ -251,12 +299,12 @@ const COMMAND_LAWS = ["coulomb", "caster", "one-way", "pendulum"];
  */
 export function command(settings, source) {
   const law = LAWS[settings.law]?.name ?? "";
-  if (source.file === null || !COMMAND_LAWS.includes(law) || settings.pendulum) return null;
+  if (source.files.length === 0 || !COMMAND_LAWS.includes(law) || settings.pendulum) return null;
   const words = ["stickslip slide", ...record(source), "--mu", ...(law === "pendulum" ? settings.mus : [settings.mu])];
   if (law !== "coulomb") words.push("--law", law);
   for (const key of /** @type {const} */ (["radii", "capacities"]))
     if (settings[key].length) words.push(`--${key}`, ...settings[key]);
-  if (settings.vertical) words.push("--station");
+  if (source.station) words.push("--station");
   for (const [option, value] of /** @type {[string, number][]} */ ([
     ["--reach", settings.reach],
     ["--mu-static", settings.mu_static],
@@ -273,14 +321,13 @@ export function command(settings, source) {
 }
 
 /**
- * The command for the path in the plane, where the vertical component of the file acts if it has one; or null.
+ * The command for the path in the plane, where all components of the files act; or null.
  * @param {Settings} settings
- * @param {Source} source
- * @param {boolean} hasVertical
+ * @param {Source} source  of a station
  */
-export function pathCommand(settings, source, hasVertical) {
-  if (LAWS[settings.law]?.name !== "coulomb" || (hasVertical && !settings.vertical)) return null;
-  const line = command({ ...settings, vertical: 0 }, source);
+export function pathCommand(settings, source) {
+  if (LAWS[settings.law]?.name !== "coulomb" || source.dropsVertical) return null;
+  const line = command({ ...settings, vertical: 0 }, { ...source, station: false });
   return line && `${line} --planar${settings.vertical && settings.clipped ? " --contact clipped" : ""}`;
 }
 
@@ -350,16 +397,15 @@ export function python(s, source, rests) {
 /**
  * The Python lines for the path in the plane.
  * @param {Settings} s
- * @param {Source} station
- * @param {boolean} hasVertical
+ * @param {Source} source  of a station
  * @param {boolean} even   whether the time step is the same throughout
  * @param {boolean} rests  whether the slider comes to rest
  */
-export function pathPython(s, station, hasVertical, even, rests) {
+export function pathPython(s, source, even, rests) {
   const time = even ? "motion.dt" : "times=motion.time";
   return [
-    ...imports(station),
-    ...(hasVertical && !s.vertical ? [`motion = ss.GroundMotion(motion.acceleration, ${time}, transverse=motion.transverse)`] : []),
+    ...imports(source),
+    ...(source.dropsVertical ? [`motion = ss.GroundMotion(motion.acceleration, ${time}, transverse=motion.transverse)`] : []),
     `slider = ss.PlanarSlider(${slider(s)})`,
     integration(s, rests),
     "print(response.peak, response.residual)",

@@ -1,14 +1,18 @@
 // Ground motions that the page generates, and how Python obtains the same motion.
 
 /** @import { Library } from "./library.js" */
+/** @import { Motion } from "./worker.js" */
+/** @import { Quantity } from "./units.js" */
 
 /**
  * Where a ground motion comes from.
  * @typedef {Object} Source
- * @property {string | null} file  null if the page generates it
+ * @property {string[]} files      none if the page generates it
  * @property {string} [units]      as the reader entered them
  * @property {number} [dt]         as the reader entered it [s]
  * @property {string} [component]  where the file has several
+ * @property {boolean} [station]   several components of them act
+ * @property {boolean} [dropsVertical]  the files hold a vertical component, which does not act
  * @property {string[]} python     lines that define `motion`
  */
 
@@ -17,7 +21,8 @@
  * @typedef {Object} Parameter
  * @property {string} key
  * @property {string} label
- * @property {string} unit
+ * @property {string} [unit]          where it is always the same
+ * @property {Quantity} [quantity]    whose chosen unit it has
  * @property {number} value  by default
  * @property {number} min
  * @property {number} max
@@ -42,7 +47,7 @@ function sampled(duration, at) {
   return Float64Array.from({ length: Math.round(duration / DT) + 1 }, (_, i) => at(i * DT));
 }
 
-const PGA = { key: "pga", label: "PGA", unit: "m/s\u00b2", value: 3, min: 0.01, max: 100 };
+const PGA = { key: "pga", label: "PGA", quantity: /** @type {const} */ ("acceleration"), value: 3, min: 0.01, max: 100 };
 const FREQUENCY = { key: "frequency", label: "frequency", unit: "Hz", value: 1, min: 0.05, max: 20 };
 
 /** @type {readonly Generator[]} */
@@ -71,7 +76,7 @@ export const GENERATORS = Object.freeze([
     parameters: [
       PGA,
       FREQUENCY,
-      { key: "cycles", label: "cycles", unit: "", value: 10, min: 1, max: 200 },
+      { key: "cycles", label: "cycles", value: 10, min: 1, max: 200 },
     ],
     make: (library, { pga = 0, frequency = 1, cycles = 1 }) =>
       library.make(
@@ -89,9 +94,9 @@ export const GENERATORS = Object.freeze([
     parameters: [
       { key: "s0", label: "S\u2080", unit: "m\u00b2/s\u00b3", value: 0.01, min: 1e-6, max: 10 },
       { key: "omega", label: "\u03c9 ground", unit: "rad/s", value: 15, min: 1, max: 300 },
-      { key: "damping", label: "\u03b6 ground", unit: "", value: 0.6, min: 0.05, max: 1 },
+      { key: "damping", label: "\u03b6 ground", value: 0.6, min: 0.05, max: 1 },
       { key: "samples", label: "samples", unit: "\u00d7 0.01 s", value: 2048, min: 64, max: 65536 },
-      { key: "seed", label: "seed", unit: "", value: 1, min: 0, max: 1e9 },
+      { key: "seed", label: "seed", value: 1, min: 0, max: 1e9 },
     ],
     make: (library, { s0 = 0, omega = 1, damping = 1, samples = 2, seed = 0 }) =>
       library.kanaiTajimi({ s0, frequency: omega, damping, dt: 0.01, samples, seed }),
@@ -109,22 +114,24 @@ export const GENERATORS = Object.freeze([
 const literal = (text) => JSON.stringify(text);
 
 /**
- * The source of a component of a file.
- * @param {{file: string, units: string, dt: number, component: string, along: string, vertical: boolean}} of
- *   `units` and `dt` as entered, empty and NaN otherwise; `component` where the file has several
+ * The source of a component of a file, or of a station along it.
+ * @param {Motion} motion
+ * @param {readonly Motion[]} [station]  the components that act, `motion` among them
  * @returns {Source}
  */
-export function recorded({ file, units, dt, component, along, vertical }) {
-  const stated = [literal(file)];
-  if (units) stated.push(`units=${literal(units)}`);
-  if (!Number.isNaN(dt)) stated.push(`dt=${dt}`);
-  if (vertical) stated.push(`along=${literal(along)}`);
-  else if (component) stated.push(`component=${/^\d+$/.test(component) ? component : literal(component)}`);
-  return {
-    file,
-    units,
-    ...(Number.isNaN(dt) ? {} : { dt }),
-    component,
-    python: [`motion = ss.${vertical ? "read_station" : "read_record"}(${stated.join(", ")})`],
-  };
+export function recorded(motion, station = [motion]) {
+  /** @type {{units?: string, dt?: number}} */
+  const options = JSON.parse(motion.given);
+  const { units, dt } = options;
+  const stated = [...(units ? [`units=${literal(units)}`] : []), ...(dt === undefined ? [] : [`dt=${dt}`])];
+  const files = [...new Set(station.map(({ file }) => file))];
+  const several = station.length > 1;
+  const called = motion.component || String(motion.number);
+  const component = files.length > 1 ? motion.orientation : motion.several ? called : "";
+  if (several) {
+    stated.unshift(`along=${literal(motion.orientation)}`);
+    if (station.some((one) => one.pointed)) stated.push(`orientations=[${station.map((one) => literal(one.orientation)).join(", ")}]`);
+  } else if (component) stated.unshift(`component=${/^\d+$/.test(component) ? component : literal(component)}`);
+  const from = files.length > 1 ? `[${files.map(literal).join(", ")}]` : literal(motion.file);
+  return { ...options, files, component, station: several, python: [`motion = ss.${several ? "read_station" : "read_record"}(${[from, ...stated].join(", ")})`] };
 }

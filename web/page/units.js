@@ -10,8 +10,8 @@ const GRAVITY = 9.80665;
 
 /** @type {Record<"length" | "acceleration" | "velocity" | "time" | "temperature" | "none", Record<string, Unit>>} */
 export const UNITS = {
-  length: { cm: { name: "cm", size: 0.01 }, in: { name: "in", size: 0.0254 } },
-  velocity: { cm: { name: "cm/s", size: 0.01 }, in: { name: "in/s", size: 0.0254 } },
+  length: { cm: { name: "cm", size: 0.01 }, m: { name: "m", size: 1 }, in: { name: "in", size: 0.0254 } },
+  velocity: { cm: { name: "cm/s", size: 0.01 }, m: { name: "m/s", size: 1 }, in: { name: "in/s", size: 0.0254 } },
   acceleration: { g: { name: "g", size: GRAVITY }, si: { name: "m/s\u00b2", size: 1 } },
   time: { s: { name: "s", size: 1 } },
   temperature: { celsius: { name: "\u00b0C", size: 1 } },
@@ -19,7 +19,7 @@ export const UNITS = {
 };
 
 /**
- * @typedef {{length: "cm" | "in", acceleration: "g" | "si"}} Choice
+ * @typedef {{length: "cm" | "m" | "in", acceleration: "g" | "si"}} Choice
  * @typedef {keyof typeof UNITS} Quantity
  */
 
@@ -52,3 +52,17 @@ export function digits(value) {
   const text = size < 1e-3 || size >= 1e6 ? value.toExponential(2) : String(Number(value.toPrecision(4)));
   return text.replaceAll("-", "\u2212");
 }
+
+/**
+ * A value as a field holds it: twelve digits.
+ * @param {number} value
+ * @param {Unit} unit
+ */
+export const toUnit = (value, { size }) => Number((value / size).toPrecision(12));
+
+/**
+ * What a field holds, in SI units: 0.3937 m of 39.37 cm.
+ * @param {number} value
+ * @param {Unit} unit
+ */
+export const fromUnit = (value, { size }) => Number((value * size).toPrecision(12));

@@ -3,12 +3,24 @@
 import { unpacked } from "./files.js";
 import { Library } from "./library.js";
 import { GENERATORS } from "./sources.js";
+import { angleInPair, byStation, saidByName } from "./stations.js";
 
 /** @import { Component, Measures, ReadOptions, Settings, Summary } from "./library.js" */
 
 /**
- * A ground motion of the worker.
- * @typedef {Component & {measures: Measures, verticalId: number | null, planarId: number | null, several: boolean}} Motion
+ * A ground motion of the worker: a component of a file, or what it generated.
+ * @typedef {Component & {measures: Measures, file: string, given: string, number: number, several: boolean, pointed: boolean}} Motion
+ *   `given` is what its reader was told; `several`: the file has others; `pointed`: its name or a table says where it points
+ */
+
+/**
+ * A horizontal component with those of its station.
+ * @typedef {Object} Joined
+ * @property {number} id
+ * @property {number[]} members         of the station, itself among them
+ * @property {number | null} verticalId  of its motion with the vertical component
+ * @property {number | null} planarId    of its motion with the other components
+ * @property {string} reason             why the components do not fit together; empty if they do
  */
 
 /**
@@ -26,47 +38,96 @@ import { GENERATORS } from "./sources.js";
 /** @type {Library} */
 let library;
 
+/** The stations by the numbers of their components. @type {Map<string, Joined[]>} */
+let stations = new Map();
+
+/**
+ * Where a component points if only the name of its file says so, as `Suite.read` has it.
+ * @param {Component} one
+ * @param {string} file
+ * @param {string} orientation  that a table states, or none
+ */
+function pointed(one, file, orientation) {
+  const said = one.component ? null : saidByName(file);
+  const name = said ? `${said.station}, ${said.component}` : one.name;
+  const component = said?.component ?? one.component;
+  const known = one.orientation || orientation;
+  const angle = angleInPair({ component, orientation: known });
+  const direction = angle ?? (known || (said?.component ?? ""));
+  if (component === one.component && direction === one.orientation) return { ...one, pointed: false };
+  const found = library.point(one.id, component, direction);
+  // A pair without azimuths has no north.
+  return { ...found, name, pointed: direction !== one.orientation, ...(angle === undefined ? {} : { azimuth: NaN }) };
+}
+
+/** The horizontal components of a station with the others. @param {Motion[]} parts  @returns {Joined[]} */
+function joined(parts) {
+  const vertical = parts.filter((one) => one.vertical);
+  const horizontal = parts.filter((one) => !one.vertical);
+  const members = parts.map(({ id }) => id);
+  let reason = "";
+  try {
+    if (parts.length > 1 && horizontal.length) library.discard(library.station([...horizontal, ...vertical].map(({ id }) => id)));
+  } catch (error) {
+    reason = /** @type {Error} */ (error).message.replace("read_station: ", "");
+  }
+  return horizontal.map((one) => {
+    const others = horizontal.filter((another) => another !== one);
+    const along = (/** @type {Motion[]} */ ...more) => (more.length && !reason ? library.station([one, ...more].map(({ id }) => id)) : null);
+    return {
+      id: one.id,
+      members: reason ? [one.id] : members,
+      verticalId: along(...vertical),
+      planarId: others.length ? along(...others, ...vertical) : null,
+      reason,
+    };
+  });
+}
+
 /** What the page calls; each answer is cloned. */
 const calls = {
   /** @param {Uint8Array<ArrayBuffer>} bytes */
   async load(bytes) {
     library = await Library.load(bytes);
+    return library.ranges();
   },
 
   /**
-   * The components of a plain file; the vertical one joins those of the same file.
-   * @param {string} name
+   * The components of a plain file.
+   * @param {string} file
    * @param {Uint8Array} bytes
-   * @param {ReadOptions} options
+   * @param {ReadOptions & {orientation?: string}} options  the orientation of a file that states none
    * @returns {Motion[]}
    */
-  read(name, bytes, options) {
-    const components = library.read(name, bytes, options);
-    const vertical = components.find((one) => one.vertical);
-    const horizontal = components.filter((one) => !one.vertical);
-    const several = components.length > 1;
-    const motions = (horizontal.length ? horizontal : components).map((one) => {
-      /** @type {number | null} */
-      let verticalId = null;
-      if (vertical && !one.vertical)
-        try {
-          verticalId = library.station([one.id, vertical.id]);
-        } catch {
-          // No orientation, or another time base: the component slides alone.
-        }
-      /** @type {number | null} */
-      let planarId = null;
-      const other = horizontal.find((another) => another !== one);
-      if (other && !one.vertical && horizontal.length === 2)
-        try {
-          planarId = library.station([one.id, other.id, ...(vertical ? [vertical.id] : [])]);
-        } catch {
-          // As above: there is no path in the plane.
-        }
-      return { ...one, measures: library.measures(one.id), verticalId, planarId, several };
-    });
-    if (vertical && horizontal.length) library.discard(vertical.id);
-    return motions;
+  read(file, bytes, { orientation = "", ...options }) {
+    const components = library.read(file, bytes, options);
+    const alone = components.length === 1;
+    return components.map((one, i) => ({
+      ...(alone ? pointed(one, file, orientation) : pointed(one, "", "")),
+      measures: library.measures(one.id),
+      file,
+      given: JSON.stringify(options),
+      number: i + 1,
+      several: !alone,
+    }));
+  },
+
+  /**
+   * Joins components to stations.
+   * @param {Motion[]} motions  all that there are
+   * @returns {Joined[]}  one for each horizontal component
+   */
+  join(motions) {
+    /** @type {typeof stations} */
+    const now = new Map();
+    for (const parts of byStation(motions)) {
+      const key = parts.map(({ id }) => id).join(" ");
+      now.set(key, stations.get(key) ?? joined(parts));
+    }
+    for (const [key, old] of stations)
+      if (!now.has(key)) for (const { verticalId, planarId } of old) for (const id of [verticalId, planarId]) if (id !== null) library.discard(id);
+    stations = now;
+    return [...now.values()].flat();
   },
 
   /** @param {string} name  @param {Uint8Array} bytes */
@@ -85,9 +146,8 @@ const calls = {
     const generator = GENERATORS.find((one) => one.name === name);
     if (!generator) throw new Error(`unknown motion ${name}`);
     const id = generator.make(library, values);
-    const measures = library.measures(id);
-    const named = { name: generator.label, component: "", orientation: "", units: "" };
-    return { id, ...named, vertical: false, measures, verticalId: null, planarId: null, several: false };
+    const named = { name: generator.label, component: "", orientation: "", units: "", start: "", sensor: "", file: "", given: "{}" };
+    return { id, ...named, azimuth: NaN, vertical: false, measures: library.measures(id), number: 1, several: false, pointed: false };
   },
 
   /** @param {number[]} ids */
@@ -146,12 +206,12 @@ const calls = {
   },
 
   /**
-   * Peak and magnitude of the residual [m] with the record as it is and reversed.
+   * Peak and magnitude of the residual [m] with the record reversed and as it is, which SLAMMER calls normal and inverse.
    * @param {number} id
    * @param {Settings} settings
    */
   bothWays(id, settings) {
-    const [normal, inverse] = [1, -1].map((sign) => {
+    const [inverse, normal] = [1, -1].map((sign) => {
       const { peak, residual } = library.spectrum(
         id,
         { ...settings, scale: sign * settings.scale },

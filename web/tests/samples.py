@@ -32,6 +32,28 @@ def record(path: Path, units: str = "(g)") -> None:
     path.write_text("\n".join([heading, *lines]) + "\n")
 
 
+def station(folder: Path, three: Path) -> None:
+    """The components of a station, a file each, in PEER's layout; bare columns and their table."""
+    for component, title, end in ((1, "0", "000"), (2, "90", "090"), (3, "UP", "-UP")):
+        motion = ss.read_record(three, component=component)
+        values = [f"{value / ss.STANDARD_GRAVITY: .7E}" for value in motion.acceleration]
+        lines = [
+            "PEER NGA STRONG MOTION DATABASE RECORD",
+            f"Made-up-01, 1/1/2000, Nowhere, {title}",
+            "ACCELERATION TIME SERIES IN UNITS OF G",
+            f"NPTS=   {len(values)}, DT=   .0100 SEC,",
+            *("  ".join(values[k : k + 5]) for k in range(0, len(values), 5)),
+        ]
+        (folder / f"RSN1_MADE_NOW{end}.AT2").write_text("\n".join(lines) + "\n")
+    for end, step in (("SLO-000", 2), ("SLO-090", 2), ("FAS-045", 1)):
+        values = ss.read_record(three, component=2 if end == "SLO-090" else 1).acceleration[::step]
+        column = (f"{value / ss.STANDARD_GRAVITY:.6f}" for value in values)
+        (folder / f"{end}.txt").write_text("\n".join(column) + "\n")
+    (folder / "steps.csv").write_text(
+        "station,file,dt_s\nSLO,SLO-000.txt,0.02\nSLO,SLO-090.txt,0.02\nFAS,FAS-045.txt,0.01\n"
+    )
+
+
 def numbers(motion: ss.GroundMotion, mu: float, **mounting: float) -> dict[str, float]:
     """As the table of the page has them."""
     response = ss.integrate(ss.Slider(ss.Coulomb(mu=mu), **mounting), motion, settle=True)
@@ -53,10 +75,10 @@ def numbers(motion: ss.GroundMotion, mu: float, **mounting: float) -> dict[str, 
 
 
 def both_ways(motion: ss.GroundMotion, mu: float) -> list[float]:
-    """Peaks, then magnitudes of residuals: of the motion, of its reverse, and the means."""
+    """Peaks, then magnitudes of residuals: of the reversed motion, of the motion, and the means."""
     slider = ss.Slider(ss.Coulomb(mu=mu))
     normal, inverse = (
-        ss.integrate(slider, motion.scaled(sign), settle=True) for sign in (1.0, -1.0)
+        ss.integrate(slider, motion.scaled(sign), settle=True) for sign in (-1.0, 1.0)
     )
     peaks = [normal.peak, inverse.peak]
     residuals = [abs(normal.residual), abs(inverse.residual)]
@@ -75,6 +97,7 @@ def main() -> None:
     rows = [row.split(",") for row in three.read_text().splitlines()]
     (folder / "up.csv").write_text("\n".join(f"{row[0]},{row[3]}" for row in rows))
     (folder / "broken.csv").write_text("Time (s), Acceleration (g)\n0, 0\n0.01, oops\n0.02, 0.1\n")
+    station(folder, three)
     (folder / "packed.csv.gz").write_bytes(gzip.compress(three.read_bytes()))
     with zipfile.ZipFile(folder / "many.zip", "w", zipfile.ZIP_DEFLATED) as archive:
         archive.write(three, "folder/three.csv")
