@@ -249,6 +249,7 @@ function showRemarks() {
     const field = fieldOf(label.dataset.key, full);
     if (field) say(label.querySelector(".remark"), label.querySelector("input"), field);
   }
+  if (element("fields").textContent.includes("is its unit right?")) element("mounting").open = true; // to be seen
   return wrong || (selected === generated ? generatorTrouble : "");
 }
 
@@ -451,7 +452,7 @@ function showPath() {
   plots.path.resize();
   plots.path.map(transverse, axis, {
     right: `transverse${right} [${name}]`,
-    up: `along ${Number.isNaN(azimuth) ? component : orientation} [${name}]`,
+    up: `along ${Number.isNaN(azimuth) ? component : orientation.replace(/^[\d.]+$/, "$&\u00b0")} [${name}]`,
     marks: [
       { name: "start", x: 0, y: 0, label: "start" },
       { name: "peak", x: transverse[far] ?? 0, y: axis[far] ?? 0, label: `peak ${shown(peak, "length")}` },
@@ -673,10 +674,6 @@ function show(s, row) {
   element("pinned").textContent = pinned ? `Compared with ${inWords(completed(pinned.settings))} (dashed).` : "";
   element("output").classList.toggle("empty", response === null);
   if (!response) return;
-  if (row !== windowed) {
-    windowed = row;
-    setWindow(strongWindow(row));
-  }
   element("subject").textContent = `${row.label}: ${inWords(s)}`;
   element("answer").replaceChildren(
     ...["peak", "residual"].map((name) =>
@@ -741,6 +738,12 @@ function show(s, row) {
   showSliding();
   element("report").textContent = report(s, row);
   element("time").max = String(time.at(-1) ?? 1);
+  if (row !== windowed) {
+    windowed = row;
+    const strong = strongWindow(row);
+    if (strong) now = strong[0];
+    setWindow(strong);
+  }
   setTime(Math.min(now, time.at(-1) ?? 0));
 }
 

@@ -127,7 +127,8 @@ export function recorded(motion, station = [motion]) {
   const files = [...new Set(station.map(({ file }) => file))];
   const several = station.length > 1;
   const called = motion.component || String(motion.number);
-  const component = files.length > 1 ? motion.orientation : motion.several ? called : "";
+  const direction = Number.isNaN(motion.azimuth) ? motion.component : motion.orientation;
+  const component = files.length > 1 ? direction : motion.several ? called : "";
   if (several) {
     stated.unshift(`along=${literal(motion.orientation)}`);
     if (station.some((one) => one.pointed)) stated.push(`orientations=[${station.map((one) => literal(one.orientation)).join(", ")}]`);

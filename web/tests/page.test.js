@@ -157,12 +157,17 @@ test("the command and the Python lines give the numbers of the page", async () =
 });
 
 test("the files of a station: path and vertical component, by command and by Python", async () => {
-  const files = ["RSN1_MADE_NOW-UP.AT2", "RSN1_MADE_NOW000.AT2", "RSN1_MADE_NOW090.AT2"]; // as a folder lists them
-  for (const settings of ["mu=0.1", "mu=0.1&vertical=1"]) {
+  for (const [settings = "", ...files] of [
+    ["mu=0.1", "RSN1_MADE_NOW-UP.AT2", "RSN1_MADE_NOW000.AT2", "RSN1_MADE_NOW090.AT2"], // as a folder lists them
+    ["mu=0.1&vertical=1", "RSN2_PAIR_NOW-H1.AT2", "RSN2_PAIR_NOW-H2.AT2", "RSN2_PAIR_NOW-UP.AT2"], // no azimuths, no north
+    ["mu=0.1&vertical=1", "RSN1_MADE_NOW-UP.AT2", "RSN1_MADE_NOW000.AT2", "RSN1_MADE_NOW090.AT2"],
+  ]) {
     await open(settings);
     await drop(...files);
     await pathShown();
-    assert.match((await listed("records")).join(), /^RSN1_MADE_NOW000\.AT2 .*path, vertical.*,RSN1_MADE_NOW090\.AT2 .*path, vertical/s);
+    const horizontal = files.filter((name) => !name.includes("UP"));
+    assert.match((await listed("records")).join(), new RegExp(`^${horizontal.map((name) => `${name} [^,]*, [^,]*, path, vertical.`).join(",")}$`));
+    assert.equal((await page.$$("#plot-path .north")).length, files[0]?.startsWith("RSN2") ? 0 : 1);
     for (const [id, planar] of /** @type {[string, boolean][]} */ ([["numbers", false], ["path-numbers", true]])) {
       const { peak = NaN, residual = NaN } = await table(id);
       const [prefix, size] = [planar ? "path-" : "", planar ? "float(sum(response.residual ** 2)) ** 0.5" : "response.residual"];
@@ -587,6 +592,9 @@ test("a long record opens at its strong motion", async () => {
   writeFileSync(`${samples}long.csv`, ["Time (s), Acceleration (m/s^2)", ...quiet.map((a, i) => `${(i / 100).toFixed(2)},${a}`)].join("\n"));
   await drop("long.csv");
   const [, from = NaN, to = NaN] = /^instead of (.*) to (.*) s$/.exec(await page.$eval("#whole", (one) => /** @type {HTMLElement} */ (one).title))?.map(Number) ?? [];
+  await new Promise((resolve) => setTimeout(resolve, 100));
+  const shown = Number(/^t = (\S+) s/.exec(await textOf("readout"))?.[1]);
+  assert.ok(Math.abs(shown - from) < 0.02, `${shown} instead of ${from} s`); // to a sample and two digits
   const { "D5-95": strong = NaN } = await table();
   assert.ok(Math.abs(to - from - 1.5 * strong) < 2e-3 && from > 27 && to < 43, `${from} to ${to} s`);
   await page.click("#whole");

@@ -34,7 +34,17 @@ def record(path: Path, units: str = "(g)") -> None:
 
 def station(folder: Path, three: Path) -> None:
     """The components of a station, a file each, in PEER's layout; bare columns and their table."""
-    for component, title, end in ((1, "0", "000"), (2, "90", "090"), (3, "UP", "-UP")):
+    directed = [
+        (1, "1_MADE", "0", "NOW000"),
+        (2, "1_MADE", "90", "NOW090"),
+        (3, "1_MADE", "UP", "NOW-UP"),
+    ]
+    paired = [
+        (1, "2_PAIR", "H1", "NOW-H1"),
+        (2, "2_PAIR", "H2", "NOW-H2"),
+        (3, "2_PAIR", "UP", "NOW-UP"),
+    ]
+    for component, number, title, end in directed + paired:
         motion = ss.read_record(three, component=component)
         values = [f"{value / ss.STANDARD_GRAVITY: .7E}" for value in motion.acceleration]
         lines = [
@@ -44,7 +54,7 @@ def station(folder: Path, three: Path) -> None:
             f"NPTS=   {len(values)}, DT=   .0100 SEC,",
             *("  ".join(values[k : k + 5]) for k in range(0, len(values), 5)),
         ]
-        (folder / f"RSN1_MADE_NOW{end}.AT2").write_text("\n".join(lines) + "\n")
+        (folder / f"RSN{number}_{end}.AT2").write_text("\n".join(lines) + "\n")
     for end, step in (("SLO-000", 2), ("SLO-090", 2), ("FAS-045", 1)):
         values = ss.read_record(three, component=2 if end == "SLO-090" else 1).acceleration[::step]
         column = (f"{value / ss.STANDARD_GRAVITY:.6f}" for value in values)
