@@ -444,3 +444,71 @@ TEST_CASE("equal columns without labels are refused", "[records]") {
   CHECK_THAT(refusal(rows(",", [](int i) { return print("%.7f", sample(i)); }), {.units = "g", .dt = 0.01}),
              ContainsSubstring("columns 1 and 2 are equal"));
 }
+
+TEST_CASE("labels are found above other lines, and count where they do not fit", "[records]") {
+  const auto both = [](int i) { return seconds(i) + print(",%.7f", 0.5 * sample(i)); };
+  for (const char* other : {"# corrected\n", ",filtered\n", "file1,file1\n"}) {
+    CAPTURE(other);
+    CHECK_THAT(refusal("Time,Velocity\n" + std::string(other) + rows(",", seconds), {.units = "g"}),
+               ContainsSubstring("a velocity"));
+    CHECK(read("Time,UP\n" + std::string(other) + rows(",", seconds), {.units = "g"}).orientation() == "UP");
+  }
+  const auto origin = parse_components("Time,NS,UD\ns,gal,gal\n,KJM,KJM\n" + rows(",", both), "a.csv", {});
+  REQUIRE(origin.size() == 2);
+  CHECK(origin[1].motion.orientation() == "UD");
+  CHECK_THAT(refusal("Time\tVelocity\ns\t\n" + rows("\t", seconds), {.units = "m/s^2"}), ContainsSubstring("velocity"));
+  CHECK_THAT(refusal("Time (s),Vel (cm/s)\n" + rows(",", both), {.units = "g"}), ContainsSubstring("do not fit the 3"));
+  CHECK_THAT(refusal("Time (sec) Ground Velocity (cm/sec)\n" + rows(" ", seconds), {.units = "g"}),
+             ContainsSubstring("do not fit the 2"));
+}
+
+TEST_CASE("cells that are merged label what lies below them", "[records]") {
+  const auto both = [](int i) { return seconds(i) + print(",%.7f", 0.5 * sample(i)); };
+  CHECK_THAT(refusal(",Velocity,\nTime (s),N,E\n" + rows(",", both), {.units = "g"}), ContainsSubstring("a velocity"));
+  CHECK(parse_components(",Acc (g),\nTime (s),N,E\n" + rows(",", both), "a.csv", {}).size() == 2);
+}
+
+TEST_CASE("what looks like a unit and is none is not passed over", "[records]") {
+  for (const char* unit : {"0.1 g", "G/1000", "1/100 g", "ug", "milli g", "% g", "mGal", "m.s-2", "g/10"}) {
+    CAPTURE(unit);
+    CHECK_THAT(refusal("Time (s),Acc (" + std::string(unit) + ")\n" + rows(",", seconds), {.units = "gal"}),
+               ContainsSubstring("unit"));
+  }
+  for (const char* label : {"Acc (g) x10", "Acc [g] (x10)", "Acc/10 (g)", "Acc (g)/10"})
+    CHECK_THAT(refusal("Time (s)," + std::string(label) + "\n" + rows(",", seconds)),
+               ContainsSubstring("unknown unit"));
+  CHECK_THAT(refusal("Time (s),a_g\n" + rows(",", seconds)), ContainsSubstring("states no units"));
+  for (const char* line : {"# unit: counts\n", "# Units = 0.1 g\n", "# UNITS ARE SEC AND G/10\n", "%g\n"}) {
+    CAPTURE(line);
+    CHECK_THAT(refusal(line + ("Time,NS\n" + rows(",", seconds)), {.units = "g"}), ContainsSubstring("g"));
+  }
+  CHECK_THAT(refusal("# Units: g (1 g = 9.81 m/s2)\nTime,NS\n" + rows(",", seconds), {.units = "m/s^2"}),
+             ContainsSubstring("the file states 'g'"));
+  // In percent of g: read as such, or refused; never as g.
+  CHECK(read("%g\n" + rows(",", seconds)).peak_acceleration() == Approx(0.01 * g * largest()).epsilon(1e-6));
+}
+
+TEST_CASE("one direction is that of the record", "[records]") {
+  CHECK(read("Time (s),E (m/s2)\n" + rows(",", seconds)).orientation() == "E");
+  for (const char* line : {"# Component: UP\n", "Component UP\n", "Vertical component\n", "# Channel: HNZ\n"}) {
+    CAPTURE(line);
+    CHECK(upward(read(line + rows(",", seconds), {.units = "g"}).orientation()));
+  }
+}
+
+TEST_CASE("components side by side are no record in reading order", "[records]") {
+  for (const double factor : {0.95, 0.8, -1., 0.3}) {
+    const std::string text = rows(",", [&](int i) { return print("%.7f", factor * sample(i)); });
+    CHECK_THAT(refusal(text, {.units = "g", .dt = 0.01}), ContainsSubstring("label the columns"));
+  }
+  std::string records;
+  for (const char* name : {"N", "E"})
+    for (int i = 0; i < count; ++i) records += name + print(",%.7f\n", sample(i));
+  CHECK_THAT(refusal("component,acc (g)\n" + records, {.dt = 0.01}), ContainsSubstring("changes from 'N' to 'E'"));
+}
+
+TEST_CASE("two time steps in a line must agree", "[records]") {
+  CHECK_THAT(refusal("# dt = 0.01, fs = 50\n" + rows("", [](int) { return std::string(); }), {.units = "g"}),
+             ContainsSubstring("states no time step"));
+  CHECK(read("# dt = 0.01, fs = 100\n" + rows("", [](int) { return std::string(); }), {.units = "g"}).dt() == 0.01);
+}

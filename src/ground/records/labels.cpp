@@ -58,7 +58,7 @@ std::string named(const std::vector<std::string_view>& words, std::span<const Wo
 /// What words name that is no history of acceleration, even where their unit is one of acceleration.
 std::string kind_of_value(const std::vector<std::string_view>& words) {
   static const Words all[] = {
-      {"a period", {"period"}},
+      {"a period", {"period", "per\xC3\xADodo", "p\xC3\xA9riode", "periyot", "schwing", "\xE5\x91\xA8\xE6\x9C\x9F"}},
       {"a frequency", {"freq", "hz"}},
       {"a spectral value",
        {"sa", "sah", "sav", "se", "psa", "sv", "psv", "sd", "fas", "psd", "fft", "spectr", "fourier", "response",
@@ -76,10 +76,12 @@ std::string kind_of_value(const std::vector<std::string_view>& words) {
 /// What words name that is no acceleration, unless they stand beside that word.
 std::string other_quantity(const std::vector<std::string_view>& words) {
   static const Words all[] = {
-      {"a velocity", {"vel", "veloc", "velo", "speed", "geschw", "vitesse", "udot"}},
+      {"a velocity",
+       {"vel", "veloc", "velo", "speed", "geschw", "vitesse", "udot", "velx", "vely", "velz", "gvel", "vg", "hastighet",
+        "h\xC4\xB1z", "snelheid", "\xE9\x80\x9F\xE5\xBA\xA6"}},
       {"a displacement",
-       {"disp", "displ", "drift", "position", "pos", "weg", "verschieb", "deplac", "d\xC3\xA9plac", "desplaz",
-        "spostam"}},
+       {"disp", "displ", "dsp", "dis", "dg", "desloc", "drift", "position", "pos", "weg", "verschieb", "deplac",
+        "d\xC3\xA9plac", "desplaz", "spostam"}},
       {"a number of counts", {"counts", "adc", "raw"}},
       {"a voltage", {"volt", "volts", "voltage"}},
       {"a mark of quality", {"quality", "flag", "qc", "status"}},
@@ -109,7 +111,8 @@ bool is_neutral(std::string_view word) {
 /// The direction that a label states: its whole name, a text in brackets, or one of its words; one letter only beside
 /// words that say nothing else.
 std::string direction_in(std::string_view name, const std::vector<std::string_view>& bracketed) {
-  const bool is_number = name.find_first_not_of("0123456789.-+eE ") == std::string_view::npos;
+  const bool is_number = name.find_first_not_of("0123456789.-+eE ") == std::string_view::npos &&
+                         name.find_first_of("0123456789") != std::string_view::npos;
   if (is_number) return name.size() == 3 ? orientation_in(name) : std::string();  // 090; pandas labels columns 0, 1, 2
   if (const std::string whole = orientation_in(name); !whole.empty() && whole == name) return whole;
   for (const std::string_view text : bracketed)
@@ -188,6 +191,7 @@ void set_quantity(Label& label) {
       !any({"spectral", "response", "psa"}))
     other.clear();
   if (is_one_of(whole, {"s_a", "s_v", "s_d"})) other = "a spectral value";
+  if (is_one_of(whole, {"tn", "t_n", "t0", "t1", "per"})) other = "a period";
   if (other.empty() && !accelerates) other = other_quantity(words);
   if (other.empty() && label.unit.empty() && is_one_of(whole, {"v(t)", "d(t)", "u(t)"}))
     other = "a velocity or a displacement";
@@ -244,7 +248,8 @@ void take_unit_at_end(Label& label) {
     // A g may be anything, but not behind the word for acceleration or a direction.
     const std::vector<std::string_view> words = words_of(shorter.name);
     if (of_acceleration && unit.size() == 1 &&
-        (words.empty() || !(is_neutral(words.back()) || !direction_in(shorter.name, {}).empty())))
+        (words.empty() || same(shorter.name, "a") ||
+         !(is_neutral(words.back()) || !direction_in(shorter.name, {}).empty())))
       continue;
     if (!set_unit(label, unit)) continue;
     label.name = shorter.name;
@@ -252,10 +257,24 @@ void take_unit_at_end(Label& label) {
   }
 }
 
+/// Whether a text in brackets reads like a unit of acceleration: `0.1 g`, `mGal`, `m.s-2`, `% g`.
+bool reads_like_unit(std::string_view text) {
+  for (const std::string_view mark : {"/s", "s-2", "s^-2", "s\xE2\x81\xBB", "%", "\xE2\x80\xB0"})
+    if (text.find(mark) != std::string_view::npos) return true;
+  const std::vector<std::string_view> words = words_of(text);
+  return std::ranges::any_of(words, [](std::string_view word) {
+    return is_one_of(word, {"g", "gal", "gals", "mgal", "ug", "mg", "kg", "\xC2\xB5g", "\xCE\xBCg"});
+  });
+}
+
 /// Whether a label multiplies its unit: `Acc in milli g`, `Acc (g) *100`, `Acc 1e-3 g`.
 bool is_multiplied(std::string_view label) {
   for (const std::string_view word : words_of(label))
     if (is_one_of(word, {"milli", "micro", "kilo", "percent", "pct"})) return true;
+  for (std::size_t at = 0; at + 1 < label.size(); ++at) {  // `x10`, `/10`
+    const bool times = lower(label[at]) == 'x' && (at == 0 || !is_letter(label[at - 1]));
+    if ((times || label[at] == '/') && is_digit(label[at + 1])) return true;
+  }
   const bool star = label.find('*') != std::string_view::npos && label.find("**") == std::string_view::npos;
   return star || has(label, " x 1") || has(label, "1e-") || has(label, "1e+") || has(label, "0.0") || has(label, "/ 1");
 }
@@ -323,7 +342,7 @@ Label label_of(std::string_view text) {
   // A text in brackets that reads like a unit and is none: a known one must be given.
   if (!has_unit && label.unit.empty() && label.quantity != Quantity::time && label.quantity != Quantity::other)
     for (const std::string_view one : bracketed)
-      if (one.find("/s") != std::string_view::npos) label.unit = std::string(one);
+      if (reads_like_unit(one) && !is_one_of(one, {"G", "g's"})) label.unit = std::string(one);
   return label;
 }
 
@@ -418,9 +437,11 @@ std::vector<Label> labels_of_levels(const Lines& levels, std::size_t columns) {
   std::vector<std::string> texts(columns);
   for (const std::string_view level : levels) {
     const std::vector<std::string_view> parts = split_at(level, ",;\t");
-    for (std::size_t k = 0; k < std::min(columns, parts.size()); ++k)
-      if (const std::string_view part = unquoted(parts[k]); !part.empty())
-        texts[k] += (texts[k].empty() ? "" : " ") + std::string(part);
+    std::string_view above;  // of cells that are merged, the first one has the text
+    for (std::size_t k = 0; k < std::min(columns, parts.size()); ++k) {
+      if (const std::string_view part = unquoted(parts[k]); !part.empty() || level == levels.back()) above = part;
+      if (!above.empty()) texts[k] += (texts[k].empty() ? "" : " ") + std::string(above);
+    }
   }
   std::vector<Label> labels;
   for (const std::string& text : texts) labels.push_back(label_of(text));
@@ -442,9 +463,12 @@ std::string_view without_mark(std::string_view line) {
 }
 
 std::vector<std::string> units_in(std::string_view line, std::size_t columns) {
+  std::vector<std::string_view> fields;
+  split_row(line, fields);
+  if (std::ranges::any_of(fields, [](std::string_view field) { return same(field, "%g"); })) return {"%g"};
   line = without_mark(line);
   // What may stand before the unit.
-  bool says_unit = false, says_acceleration = false;
+  bool says_unit = false, says_acceleration = false, says_which = false;  // `units:`, `units are`
   const std::string_view whole = line;
   for (std::string_view rest = line;;) {
     std::size_t end = 0;
@@ -459,7 +483,11 @@ std::vector<std::string> units_in(std::string_view line, std::size_t columns) {
     says_unit = says_unit || of_unit;
     says_acceleration = says_acceleration || of_acceleration;
     rest = trim(rest.substr(end));
-    if (rest.starts_with(':') || rest.starts_with('=')) rest = trim(rest.substr(1));
+    says_which = says_which || (says_unit && is_one_of(word, {"are", "is", "in", "of"}));
+    if (rest.starts_with(':') || rest.starts_with('=')) {
+      says_which = says_which || says_unit;
+      rest = trim(rest.substr(1));
+    }
     line = rest;
   }
   const auto bare = [](std::string_view text) {
@@ -471,8 +499,7 @@ std::vector<std::string> units_in(std::string_view line, std::size_t columns) {
   };
   if (!says_unit && !says_acceleration) line = whole;
   if (find_acceleration_unit(bare(line))) return {std::string(bare(line))};
-  // A unit for each column.
-  std::vector<std::string_view> fields;
+  // A unit for each column; the last ones may be empty.
   split_row(line, fields);
   while (fields.size() > columns && trim(fields.back()).empty()) fields.pop_back();
   std::vector<std::string> units;
@@ -484,10 +511,17 @@ std::vector<std::string> units_in(std::string_view line, std::size_t columns) {
     some = some || of_record;
     units.push_back(unit == "-" ? std::string() : unit);
   }
-  if (known && some && fields.size() == columns && (columns > 1 || says_unit)) return units;
-  // "units: furlong/s^2" is no remark.
-  if (says_unit && !says_acceleration && fields.size() == 1 && line.find("/s") != std::string_view::npos)
-    return {std::string(bare(line))};
+  const bool fits = fields.size() == columns || (fields.size() < columns && find_time_unit(fields[0]));
+  if (known && some && fits && (columns > 1 || says_unit)) {
+    units.resize(columns);
+    return units;
+  }
+  // "units: furlong/s^2" and "unit: counts" are no remarks; "units: g (1 g = 9.81 m/s2)" states g.
+  if (says_which && !line.empty()) {
+    const std::string_view before = bare(line.substr(0, line.find('(')));
+    if (find_acceleration_unit(before)) return {std::string(before)};
+    if (line.size() <= 24) return {std::string(bare(line))};
+  }
   return {};
 }
 
@@ -519,15 +553,19 @@ std::optional<Quotient> value_after(std::string_view text, std::span<const std::
 
 /// Adds what a text states to a size. Returns whether it states anything, and nothing else.
 bool add_statement(Size& size, std::string_view text) {
+  const auto set_step = [&size](double dt) {
+    const bool agrees = !size.dt || std::abs(*size.dt - dt) <= 1e-3 * dt;
+    if (!size.dt) size.dt = dt;
+    return agrees;
+  };
   if (const auto step = value_after(text, step_keys)) {
     const std::optional<double> seconds = step->unit.empty() ? 1 : find_time_unit(step->unit);
-    if (seconds) size.dt = step->value * *seconds;
-    return seconds.has_value();
+    return seconds && set_step(step->value * *seconds);
   }
   if (const auto rate = value_after(text, rate_keys)) {
-    size.dt = 1 / rate->value;
-    return rate->value > 0 && (rate->unit.empty() || is_one_of(rate->unit, {"hz", "1/s", "sps", "samples/s",
-                                                                            "samples/sec", "samples per second"}));
+    return rate->value > 0 && set_step(1 / rate->value) &&
+           (rate->unit.empty() ||
+            is_one_of(rate->unit, {"hz", "1/s", "sps", "samples/s", "samples/sec", "samples per second"}));
   }
   if (const auto count = value_after(text, count_keys)) {
     size.samples = count->value;

@@ -19,6 +19,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -227,8 +228,14 @@ Heading heading_of(const Lines& lines, std::size_t rows, std::size_t columns) {
       heading.size_line = i;
       continue;
     }
-    if (std::exchange(labels_possible, false)) {
+    if (const std::string direction = direction_of(line); !direction.empty()) {
+      heading.direction = direction;
+      continue;
+    }
+    if (heading.labels.empty()) {
+      // In the last line that states nothing else; above other lines only if it labels times.
       heading.labels = labels_in(line, columns);
+      if (!std::exchange(labels_possible, false) && !heading.has_times()) heading.labels.clear();
       heading.line = i;
       if (i > 0 && is_level(lines[i - 1], columns)) {
         while (i > 0 && is_level(lines[i - 1], columns)) --i;
@@ -241,13 +248,23 @@ Heading heading_of(const Lines& lines, std::size_t rows, std::size_t columns) {
         heading.labels.clear();
       if (!heading.labels.empty()) continue;
     }
-    if (const std::string direction = direction_of(line); !direction.empty()) heading.direction = direction;
     if (!line.starts_with('#')) continue;
     std::string text = squeeze(line.substr(1));
     if (has(text, ": ")) text = squeeze(after(text, ": "));
     while (!text.empty() && is_separator(text.back())) text.pop_back();
     if (std::string_view rest = text; take_number(rest) && rest.empty()) continue;  // a number is no name
     if (!text.empty()) heading.title = text;
+  }
+  // Labels that do not fit the columns must not be lost.
+  for (std::size_t i = rows; i-- > 0 && heading.labels.empty() && columns > 1;) {
+    const std::string_view line = trim(lines[i]);
+    if (is_ruler(line) || is_comment(line)) continue;
+    const std::vector<std::string_view> parts = split_at(line, ",;\t");
+    const bool labels =
+        parts.size() > 1 && label_of(parts[0]).quantity == Quantity::time && label_of(parts[1]).is_recognized();
+    if (labels || (label_of(first_word(line)).quantity == Quantity::time && label_of(line).quantity == Quantity::other))
+      refuse_line(i, "labels do not fit the " + std::to_string(columns) + " columns of numbers: " + quote(line));
+    break;
   }
   return heading;
 }
@@ -282,9 +299,9 @@ Columns columns_of(const Heading& heading, const std::vector<std::string_view>& 
       label.quantity = Quantity::time;
       label.seconds = *seconds;
     }
-    if (k == 0 && label.quantity == Quantity::other && (label.other == "a period" || label.other == "a frequency"))
-      refuse_line(heading.line, "the first column is " + label.other + " (" + quote(label.text) +
-                                    "): this is a spectrum, not an acceleration history");
+    if (label.quantity == Quantity::other && (label.other == "a period" || label.other == "a frequency"))
+      refuse_line(heading.line, (k == 0 ? "the first column is " : "a column is ") + label.other + " (" +
+                                    quote(label.text) + "): this is a spectrum, not an acceleration history");
     if (label.other == "a time in an unknown unit")
       refuse_line(heading.line, "the time must be in seconds or milliseconds, its label says " + quote(label.text));
     if (label.quantity == Quantity::time && !columns.time) {
@@ -399,6 +416,24 @@ std::vector<Channel> in_reading_order(const std::vector<std::vector<double>>& co
   return {std::move(channel)};
 }
 
+/// The largest over the smallest mean square of the steps from each column to the next, and from the last to the first
+/// one of the next row: about 1 for one record in reading order, not for a component beside a similar one.
+double uneven_steps(const std::vector<std::vector<double>>& columns) {
+  const std::size_t rows = columns.back().size() - 1;
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (std::size_t k = 0; k < columns.size() && rows >= 20; ++k) {
+    double sum = 0;
+    const bool last = k + 1 == columns.size();
+    for (std::size_t i = 0; i < rows; ++i) {
+      const double step = (last ? columns[0][i + 1] : columns[k + 1][i]) - columns[k][i];
+      sum += step * step;
+    }
+    least = std::min(least, sum);
+    most = std::max(most, sum);
+  }
+  return most > 0 ? most / least : 1;
+}
+
 }  // namespace
 
 bool is_table(const Lines& lines) {
@@ -488,7 +523,8 @@ std::vector<Channel> read_columns(const Lines& lines, bool run_together) {
         bool even = places > decimals(first);
         for (std::size_t i = second, seen = 0; even && i < lines.size() && seen < 100; i = next(i + 1), ++seen)
           even = decimals(fields[0]) == places;
-        if (even)
+        take(second);
+        if (even || (is_whole(fields[0]) && fields[0].size() > 1))
           refuse_line(rows, quote(first) + " may be a time step or a sample: write 'dt = " + first +
                                 "', or a sample with as many decimals as the others");
       }
@@ -518,6 +554,10 @@ std::vector<Channel> read_columns(const Lines& lines, bool run_together) {
   const auto hint = [&] {
     return columns > 2 ? std::string("; record_formats lists what agencies write") : std::string();
   };
+  // Texts that change tell records apart where no times do.
+  std::vector<std::pair<std::size_t, std::string>> texts;
+  for (std::size_t k = 0; k < columns && !heading.labels.empty() && !roles.time; ++k)
+    if (!is_numeral(fields[k]) && !heading.labels[k].is_recognized()) texts.emplace_back(k, fields[k]);
   std::vector<bool> used(columns, heading.labels.empty());
   for (const std::size_t k : roles.acceleration) used[k] = true;
   for (const std::size_t k : roles.other_times) used[k] = true;
@@ -540,6 +580,10 @@ std::vector<Channel> read_columns(const Lines& lines, bool run_together) {
       }
       values[k].push_back(*value);
     }
+    for (const auto& [k, text] : texts)
+      if (k < fields.size() && fields[k] != text)
+        refuse_line(i, "column " + std::to_string(k + 1) + " changes from " + quote(text) + " to " + quote(fields[k]) +
+                           ", and no column holds times: one file for each record is needed");
     if (clock < fields.size() && columns > 1) resolution.add(fields[clock]);
     const std::size_t got = fields.size();
     after = next(i + 1);
@@ -563,7 +607,7 @@ std::vector<Channel> read_columns(const Lines& lines, bool run_together) {
         if (values[k] == values[k - 1])
           refuse_line(rows, "columns " + std::to_string(k) + " and " + std::to_string(k + 1) +
                                 " are equal and have no labels: keep one of them");
-      if (columns > 1 && values[0].size() > 2 && variation_ratio(values) > 1)
+      if (columns > 1 && values[0].size() > 2 && (variation_ratio(values) > 0.8 || uneven_steps(values) > 3))
         refuse_line(rows,
                     "the first of " + std::to_string(columns) +
                         " columns is not time (even, from about zero, in steps of 0.0005 to 0.1 s), and the numbers"
