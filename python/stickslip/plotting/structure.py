@@ -22,7 +22,7 @@ from .figures import Place, new_figure
 from .panels import draw_stops, mark_end, mark_peak, near_stops, shade_sticks
 from .styles import BLUE, COLORS, GRAY, VERMILION, put_figure_title, put_title, style
 from .trajectory import sticks, window
-from .words import describe_ensemble, describe_system, unit_for
+from .words import describe_ensemble, describe_system, unit_for, with_remark
 
 _BANDS = (0.05, 0.16, 0.5, 0.84, 0.95)
 _ACCELERATION, _DRIFT = "largest absolute acceleration [g]", "largest drift [mm]"
@@ -97,9 +97,8 @@ def plot_structure_response(
 
 def _draw_interface(axes: Axes, response: StructureResponse, title: str | None) -> None:
     """Draw the displacement of the interface with its sticks, stops, peak, residual and remark."""
-    what = describe_system(response.system)
-    remark = response.remark
-    put_title(axes, response.motion, title, f"{what}\nremark: {remark}" if remark else what)
+    below = with_remark(describe_system(response.system), response)
+    put_title(axes, response.motion, title, below)
     curve = response._curve()
     t, x = curve["time"], curve["displacement"]
     length, unit = unit_for(response.peak)
