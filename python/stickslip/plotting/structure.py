@@ -72,7 +72,7 @@ def plot_structure_response(
             top = figure.add_subplot(grid[0, :])
         _draw_interface(top, response, title)
         if floors is not None:
-            of = "ground" if isinstance(system, EquipmentOnFloor) else "base"
+            lowest = "ground" if isinstance(system, EquipmentOnFloor) else "base"
             peaks = np.append(response.peak_base_acceleration, floors.peak_acceleration)
             panels = [(0, peaks / STANDARD_GRAVITY, _ACCELERATION)]
             if has_drifts(response):
@@ -81,7 +81,7 @@ def plot_structure_response(
                 panel = figure.add_subplot(grid[1, k] if len(panels) > 1 else grid[1, :])
                 number = np.arange(first, len(peaks))
                 panel.plot(values, number, "o-", color=VERMILION, markersize=4, clip_on=False)
-                _set_floors(panel, number, name, of)
+                _set_floors(panel, number, name, lowest)
                 if isinstance(system, EquipmentOnFloor) and first == 0:
                     panel.annotate(
                         "equipment",
@@ -173,10 +173,15 @@ def plot_floors(
         drifts, base = peaks.peak_floor_drift.values, peaks.peak_base_acceleration
         thin = False
         _require_some(*accelerations.shape)
+        kind = peaks.configuration["slider"]
+        on_ground, slope = "equipment_on_floor" in kind, "flexible_slope" in kind
     else:
         accelerations, drifts, base = _peaks_of(peaks)
         heading = f"{len(peaks)} responses"
         thin = len(peaks) <= 50
+        on_ground, slope = (
+            isinstance(peaks[0].system, kind) for kind in (EquipmentOnFloor, FlexibleSlope)
+        )
     with style():
         figure = figure or new_figure(7, 4)
         put_figure_title(figure, title or heading)
@@ -206,7 +211,9 @@ def plot_floors(
             )
             if thin:
                 panel.plot(values.T, number, color=GRAY, linewidth=0.4, zorder=1)
-            _set_floors(panel, number, name, "base")
+            _set_floors(panel, number, name, "ground" if on_ground else "base")
+            if slope:
+                panel.set(ylabel="", yticks=number, yticklabels=["base", "top"][first:])
         above = {"loc": "lower right", "bbox_to_anchor": (1, 1), "ncols": 3}
         figure.axes[-1].legend(**above, fontsize=8)
         return figure
