@@ -1,5 +1,9 @@
 """Pictures that move: frames, files, messages."""
 
+import json
+import re
+import xml.etree.ElementTree
+
 import numpy as np
 import pytest
 import stickslip as ss
@@ -26,7 +30,7 @@ def test_the_object_is_where_the_response_is(name):
     r = ss.integrate(SLIDERS[name], QUAKE)
     animation = r.animate(time=(0.5, 1.5), fps=10)
     scene, way = animation._fig.axes
-    floor, body = scene.patches[0], next(p for p in scene.patches if p.get_zorder() == 4)
+    floor, body = (next(p for p in scene.patches if p.get_zorder() == z) for z in (2, 4))
 
     def middle(patch):
         box = scene.transData.inverted().transform_bbox(patch.get_window_extent())
@@ -129,7 +133,7 @@ def test_files_have_all_frames(tmp_path):
         assert picture.n_frames == 6
     page = animation.write(tmp_path / "a.html")
     assert "<script" in page.read_text()
-    assert "<script" in animation._repr_html_()
+    assert "&lt;script" in animation._repr_html_()
     assert sorted(p.name for p in tmp_path.iterdir()) == ["a.gif", "a.html"]
 
 
@@ -148,6 +152,40 @@ def test_the_command_writes_an_animation(capsys, tmp_path):
     assert "one response" in capsys.readouterr().err
     assert main([*options[:-1], str(tmp_path / "q.avi"), "--mu", "0.1"]) == 2
     assert "must end in .gif, .mp4, .html" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", [*SLIDERS, "plane"])
+def test_a_page_is_one_drawing_with_the_places_of_its_parts(tmp_path, name):
+    planar = ss.PlanarSlider(ss.Coulomb(mu=0.1))
+    r = ss.integrate(planar, PAIR) if name == "plane" else ss.integrate(SLIDERS[name], QUAKE)
+    animation = r.animate(fps=10)
+    page = animation.write(tmp_path / "a.html").read_text()
+    assert len(page) < 400_000 and "<image" not in page
+    film = json.loads(re.search(r"const film = (.*);", page)[1])
+    drawing = xml.etree.ElementTree.fromstring(re.search(r"<svg.*</svg>", page, re.DOTALL)[0])
+    parts = {part.get("id"): part for part in drawing.iter() if part.get("id")}
+    assert parts["trail"].find(".//{*}path") is not None
+    frames = len(film["time"])
+    assert film["time"][-1] == pytest.approx(r.events["time"][-1], abs=1e-4)
+    for part, x, y in film["moves"]:
+        assert part in parts and len(x) == len(y) == frames
+    for part, colors in film["fills"]:
+        assert parts[part].find(".//{*}path") is not None and len(colors) == frames
+    assert film["shown"][-1] == len(film["trail"])
+    # Where matplotlib draws the dot, the page does.
+    axes, dot = animation._film.axes, animation._film.dot
+    x, y = film["moves"][-1][1:]
+    places = []
+    for i in (0, frames // 2, frames - 1):
+        animation._func(i)
+        places.append(axes.transData.transform(np.column_stack(dot.get_data()))[0])
+        last = film["trail"][film["shown"][i] - 1]
+        on_page = np.array(places[-1]) * 0.72
+        on_page[1] = animation._fig.bbox.height * 0.72 - on_page[1]
+        assert last == pytest.approx(on_page, abs=0.06)
+    moved = 0.72 * (np.array(places) - places[-1])
+    for k, i in enumerate((0, frames // 2, frames - 1)):
+        assert (x[i], -y[i]) == pytest.approx(moved[k], abs=0.02)
 
 
 @pytest.mark.parametrize(
@@ -169,12 +207,12 @@ def test_save_writes_whole_files_and_pages(tmp_path, monkeypatch):
     r = ss.integrate(ss.Coulomb(mu=0.1), ss.GroundMotion([0, 3, -3, 0, 2, 0], dt=0.2))
     film = r.animate(fps=5)
     film.save(tmp_path / "a.html")
-    assert "<img" in (tmp_path / "a.html").read_text()
+    assert "<svg" in (tmp_path / "a.html").read_text()
 
     def full(*args, **options):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(type(film), "_film", full)
+    monkeypatch.setattr(type(film), "_movie", full)
     with pytest.raises(OSError, match="No space"):
         film.save(tmp_path / "b.gif")
     assert [file.name for file in tmp_path.iterdir()] == ["a.html"]

@@ -668,17 +668,42 @@ def test_equipment_stands_on_its_floor_and_a_slope_has_none():
     (top,) = slope.coupled(motion()).plot().axes
     assert "flexible slope, yield acceleration 0.0500 g, height 20.0 m" in texts(top)
     assert "coupled" in texts(top)
+    weaker = ss.Degrading(distance=[0, 1], mu=[0.05, 0.03])
+    softens = ss.FlexibleSlope(ky_g=weaker, height=20, shear_velocity=200, damping_ratio=0.05)
+    assert "yield acceleration 0.0500 g" in texts(softens.coupled(motion()).plot().axes[0])
     assert "flexible slope" in texts(slope.decoupled(motion()).plot_hysteresis().axes[0])
 
 
-def test_the_remark_of_a_structure_is_over_its_plot():
+def test_the_lowest_floor_is_named_as_what_it_is():
+    slope = ss.FlexibleSlope(ky_g=0.05, height=20, shear_velocity=200, damping_ratio=0.05)
+    mu = ss.Coulomb(mu=0.05)
+    for system, names in (
+        (ss.IsolatedStructure(mu, BUILDING, base_mass=1), ["base", "1", "2", "3"]),
+        (ss.EquipmentOnFloor(mu, BUILDING, floor=2), ["ground", "1", "2", "3"]),
+        (slope, ["base", "top"]),
+    ):
+        responses = [ss.integrate(system, motion(k)) for k in (1, 2)]
+        ensemble = ss.run_ensemble(system, SHAKING, members=2, seed=1)
+        for figure in (plotting.plot_floors(responses), ensemble.plot_floors()):
+            accelerations, drifts = figure.axes
+            labels = [label.get_text() for label in accelerations.get_yticklabels()]
+            assert labels == names
+            assert [label.get_text() for label in drifts.get_yticklabels()] == names[1:]
+
+
+def test_the_remark_of_a_response_is_over_its_plot():
     small = ss.FrictionPendulum(radius=0.05, mu=0.03)
-    r = ss.integrate(ss.IsolatedStructure(small, BUILDING, base_mass=1), motion())
-    assert "beyond 0.2 of the radius" in r.remark
-    figure = r.plot()
-    shown = texts(figure.axes[0]).replace("\n", " ")
-    assert f"remark: {r.remark}" in shown
-    assert not outside(figure)
+    pair = ss.GroundMotion(motion().acceleration, 0.02, transverse=motion(2).acceleration)
+    for system, quake in (
+        (ss.IsolatedStructure(small, BUILDING, base_mass=1), motion()),
+        (small, motion()),
+        (ss.PlanarSlider(small), pair),
+    ):
+        r = ss.integrate(system, quake)
+        assert "beyond 0.2 of the radius" in r.remark
+        figure = r.plot()
+        assert f"remark: {r.remark}" in texts(figure.axes[0]).replace("\n", " ")
+        assert not outside(figure)
 
 
 def test_the_text_of_the_peak_is_not_on_a_stop():

@@ -6,14 +6,14 @@ import math
 import os
 import tempfile
 from collections.abc import Iterator
+from html import escape
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
-from matplotlib.figure import FigureBase
+from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon, Rectangle
-from matplotlib.transforms import Affine2D
 from numpy.typing import NDArray
 
 from .._core import PlanarResponse, Response, Slider
@@ -21,8 +21,9 @@ from .._files import replacing
 from .figures import new_figure
 from .panels import near_stops
 from .planar import draw_stop, make_square, name_directions, path_of
+from .player import Film, Group
 from .styles import BLUE, GRAY, INK, PALE, VERMILION, put_title, style
-from .trajectory import window, within
+from .trajectory import window
 from .words import describe, unit_for
 
 _FRAMES = 2000  # at most
@@ -33,8 +34,15 @@ _SUFFIXES = (".gif", ".mp4", ".html")
 class Animation(FuncAnimation):
     """A matplotlib animation that a notebook shows, and that `write` saves."""
 
+    _film: Film
+
     def _repr_html_(self) -> str:
-        return str(self.to_jshtml())
+        width, height = (96 * inches for inches in self._fig.get_size_inches())
+        frame = f'width="{width:.0f}" height="{height + 40:.0f}" style="border: 0"'
+        return f'<iframe srcdoc="{escape(self._page())}" {frame}></iframe>'
+
+    def _page(self) -> str:
+        return self._film.page(self._fig, 1000 / self._interval)
 
     def write(self, path: str | os.PathLike[str]) -> Path:
         """Save as an animated GIF, an MP4 or a page.
@@ -42,8 +50,8 @@ class Animation(FuncAnimation):
         Parameters
         ----------
         path : path-like
-            Its suffix is .gif (needs Pillow), .mp4 (needs ffmpeg) or .html. An existing file is
-            replaced once the new one is whole.
+            Its suffix is .gif (needs Pillow), .mp4 (needs ffmpeg) or .html, a page that plays one
+            drawing. An existing file is replaced once the new one is whole.
 
         Returns
         -------
@@ -61,7 +69,7 @@ class Animation(FuncAnimation):
         if kind == "mp4" and not FFMpegWriter.isAvailable():
             raise RuntimeError("animate: .mp4 needs the program ffmpeg; .gif and .html do not")
         with replacing(file) as stream:
-            stream.write(self.to_jshtml().encode() if kind == "html" else self._film(kind))
+            stream.write(self._page().encode() if kind == "html" else self._movie(kind))
         return file
 
     def save(self, filename: str | os.PathLike[str], *args: Any, **options: Any) -> None:
@@ -71,7 +79,7 @@ class Animation(FuncAnimation):
         else:
             self.write(filename)
 
-    def _film(self, kind: str) -> bytes:
+    def _movie(self, kind: str) -> bytes:
         """The content of a GIF or an MP4; matplotlib writes either into a file."""
         writer = PillowWriter if kind == "gif" else FFMpegWriter
         with tempfile.TemporaryDirectory() as folder:
@@ -143,12 +151,14 @@ def animate(
     planar = isinstance(response, PlanarResponse)
     with style():
         draw = _in_plane if planar else _on_axis
-        figure, update = draw(response, times, title, size or ((6, 5) if planar else (6, 4)))
+        figure, film = draw(response, times, title, size or ((6, 5) if planar else (6, 4)))
+        film.update(0)
         # Laid out twice, for what the first changes; not at each frame, which would take longer.
         figure.draw_without_rendering()
         figure.draw_without_rendering()
         figure.set_layout_engine("none")
-    animation = Animation(figure, update, frames=len(times), interval=1000 / fps, blit=False)
+    animation = Animation(figure, film.update, frames=len(times), interval=1000 / fps, blit=False)
+    animation._film = film
     animation._draw_was_started = True  # or matplotlib warns where it is not shown
     return animation
 
@@ -178,7 +188,7 @@ def _states(response: Any, times: NDArray[np.float64]) -> NDArray[np.void]:
 
 def _on_axis(
     response: Any, times: NDArray[np.float64], title: str | None, inches: tuple[float, float]
-) -> tuple[Any, Any]:
+) -> tuple[Figure, Film]:
     figure = new_figure(*inches)
     scene, way = figure.subplots(2, 1, height_ratios=(1, 1.1))
     moved = _states(response, times)
@@ -186,15 +196,10 @@ def _on_axis(
     ground = _ground(response, times, None)
     span = max(np.ptp(ground), np.ptp(x), np.abs(x).max(), 1e-3)
     size = 0.8 * span  # of the object [m]: it is drawn in the scale of its displacement
-    on_floor, on_puck, on_body = Affine2D(), Affine2D(), Affine2D()
-
-    def add(patch: Any, frame: Affine2D, **options: Any) -> Any:
-        patch.set(transform=frame + scene.transData, **options)
-        return scene.add_patch(patch)
-
-    add(Rectangle((-8 * span, -0.3 * size), 16 * span, 0.3 * size), on_floor, color=PALE, zorder=1)
+    on_floor, on_puck, on_body = Group(scene), Group(scene), Group(scene)
+    scene.axhspan(-0.3 * size, 0, color=PALE, zorder=1)  # the floor, whose mark moves
     mark = Rectangle((-0.01 * size, -0.3 * size), 0.02 * size, 0.3 * size)
-    add(mark, on_floor, color=GRAY, zorder=2)
+    on_floor.add(mark, color=GRAY, zorder=2)
     slider = response.slider
     bearings = _Bearings(response, times, x, size) if _has_bearings(slider) else None
     wheel = 0.12 * size if _law_name(slider) == "Caster" else 0.0
@@ -203,12 +208,12 @@ def _on_axis(
     if bearings:
         width, height = bearings.width, 0.45 * size
         foot, rise = bearings.height, bearings.rise
-        for patch, frame in bearings.patches(on_floor, on_puck, on_body):
-            color = INK if frame is on_puck else GRAY
-            add(patch, frame, facecolor=color, edgecolor=INK, linewidth=0.6, zorder=3)
-    body = add(
-        Rectangle((-width / 2, foot), width, height),
-        on_body,
+        for patch, group in bearings.patches(on_floor, on_puck, on_body):
+            color = INK if group is on_puck else GRAY
+            group.add(patch, facecolor=color, edgecolor=INK, linewidth=0.6, zorder=3)
+    body = Rectangle((-width / 2, foot), width, height)
+    on_body.add(
+        body,
         edgecolor=INK,
         facecolor=BLUE,
         linewidth=0.8,
@@ -216,14 +221,14 @@ def _on_axis(
     )
     for side in (-1, 1) if wheel else ():
         roller = Circle((side * 0.3 * width, wheel), wheel)
-        add(roller, on_body, facecolor=GRAY, edgecolor=INK, zorder=5)
+        on_body.add(roller, facecolor=GRAY, edgecolor=INK, zorder=5)
     reach = width / 2 + np.abs(x).max()
     for place in near_stops(slider, response.peak):
         side = math.copysign(1, place)
         inside = place + side * width / 2
         left = inside if side > 0 else inside - 0.08 * size
         wall = Rectangle((left, 0), 0.08 * size, foot + 0.3 * size)
-        add(wall, on_floor, color=GRAY, zorder=3, label="stop")
+        on_floor.add(wall, color=GRAY, zorder=3, label="stop")
         reach = max(reach, abs(inside) + 0.08 * size)
     middle = float(ground.max() + ground.min()) / 2
     half = max(2.2 * span, 1.05 * (reach + np.ptp(ground) / 2))
@@ -234,31 +239,31 @@ def _on_axis(
     put_title(scene, response.motion, title, describe(slider))
 
     curve = response._curve()
-    curve = curve[within(curve["time"], times[0], times[-1])]
+    t, values = curve["time"], curve["displacement"]
     length, unit = unit_for(np.abs(x).max())
-    way.plot(curve["time"], length * curve["displacement"], color=_LATER, linewidth=1)
+    inside = (t > times[0]) & (t < times[-1])
+    t = np.concatenate([t[inside], times])
+    values = length * np.concatenate([values[inside], x])
+    order = np.argsort(t, kind="stable")
+    points = np.column_stack([t, values])[order]
+    way.plot(*points.T, color=_LATER, linewidth=1)
     line = way.plot([], [], color=BLUE, linewidth=1.4)[0]
-    dot = way.plot([], [], "o", color=VERMILION, markersize=5)[0]
+    dot = way.plot([], [], "o", color=VERMILION, markersize=5, clip_on=False)[0]
     way.axhline(0, color=GRAY, linewidth=0.6, zorder=0)
     way.set_xlim(times[0], times[-1])
     way.set_xlabel("time [s]")
     way.set_ylabel(f"relative displacement\n[{unit}]")
 
-    def update(i: int) -> list[Any]:
-        on_floor.clear().translate(ground[i], 0)
-        on_body.clear().translate(ground[i] + x[i], gap[i] + rise[i])
-        if bearings:
-            on_puck.clear().translate(ground[i] + bearings.puck[i], bearings.lift[i])
-        body.set_facecolor(BLUE if stuck[i] else VERMILION)
-        shown = curve[curve["time"] < times[i]]
-        line.set_data(
-            np.append(shown["time"], times[i]), length * np.append(shown["displacement"], x[i])
-        )
-        dot.set_data([times[i]], [length * x[i]])
-        return [line, dot, body]
-
-    update(0)
-    return figure, update
+    film = Film(times)
+    film.groups = [on_floor, on_body]
+    on_floor.move(ground, 0 * ground)
+    on_body.move(ground + x, gap + rise)
+    if bearings:
+        film.groups.append(on_puck)
+        on_puck.move(ground + bearings.puck, bearings.lift)
+    film.body = body, [BLUE if still else VERMILION for still in stuck]
+    film.follow(way, line, dot, points[:, 0], points)
+    return figure, film
 
 
 def _law_name(slider: Slider) -> str:
@@ -305,8 +310,8 @@ class _Bearings:
         return Polygon([*zip(center + self.half * u, curved), *corners])
 
     def patches(
-        self, on_floor: Affine2D, on_puck: Affine2D, on_body: Affine2D
-    ) -> Iterator[tuple[Any, Affine2D]]:
+        self, on_floor: Group, on_puck: Group, on_body: Group
+    ) -> Iterator[tuple[Any, Group]]:
         for side in (-1, 1):
             center = side * self.aside
             yield self._dish(center, 0, 1), on_floor
@@ -320,32 +325,27 @@ class _Bearings:
 
 def _in_plane(
     response: Any, times: NDArray[np.float64], title: str | None, inches: tuple[float, float]
-) -> tuple[Any, Any]:
-    figure: FigureBase = new_figure(*inches)
+) -> tuple[Figure, Film]:
+    figure = new_figure(*inches)
     plan = figure.subplots()
     length, _ = unit_for(response.peak)
     # As on a map: the axis upward, the transverse component to the right.
     t, place = path_of(response)
-    part = within(t, times[0], times[-1])
-    t, way = t[part], length * place[part, ::-1]
-    at = length * _states(response, times)["displacement"][:, ::-1]
-    plan.plot(*way.T, color=_LATER, linewidth=1, label="path")
+    inside = (t > times[0]) & (t < times[-1])
+    t = np.concatenate([t[inside], times])
+    place = np.concatenate([place[inside], _states(response, times)["displacement"]])
+    order = np.argsort(t, kind="stable")
+    points = length * place[order, ::-1]
+    plan.plot(*points.T, color=_LATER, linewidth=1, label="path")
     line = plan.plot([], [], color=BLUE, linewidth=1.4)[0]
-    dot = plan.plot([], [], "o", color=VERMILION, markersize=8, zorder=4)[0]
+    dot = plan.plot([], [], "o", color=VERMILION, markersize=8, zorder=4, clip_on=False)[0]
     draw_stop(plan, response, length)
     if response.peak > 0:
         make_square(plan)
     plan.set_aspect("equal", adjustable="box", anchor="W")  # north is at the right
     name_directions(plan, response, length)
     put_title(plan, response.motion, title, describe(response.slider.along_axis))
-    clock = plan.text(0.02, 0.02, "", transform=plan.transAxes, color=GRAY)
-
-    def update(i: int) -> list[Any]:
-        shown = way[t < times[i]]
-        line.set_data(*np.vstack([shown, at[i]]).T)
-        dot.set_data(*at[i : i + 1].T)
-        clock.set_text(f"{times[i]:.1f} s")
-        return [line, dot, clock]
-
-    update(0)
-    return figure, update
+    film = Film(times)
+    film.clock = plan.text(0.02, 0.02, "", transform=plan.transAxes, color=GRAY)
+    film.follow(plan, line, dot, t[order], points)
+    return figure, film

@@ -15,7 +15,7 @@ from .figures import Place, new_figure
 from .panels import shade_sticks
 from .styles import AT_RIGHT, BLUE, GRAY, INK, VERMILION, put_title, style
 from .trajectory import sticks, window
-from .words import describe, digits, in_places, unit_for, unit_of
+from .words import describe, digits, in_places, unit_for, unit_of, with_remark
 
 
 @overload
@@ -79,7 +79,8 @@ def plot_planar_response(
         transverse.sharex(axis)
         t, place = path_of(response)
         length, unit = unit_for(response.peak)
-        put_title(plan, response.motion, title, describe(response.slider.along_axis))
+        below = with_remark(describe(response.slider.along_axis), response)
+        put_title(plan, response.motion, title, below)
         _draw_map(plan, response, place, length, unit)
         spans = sticks(response)
         for k, (panel, name) in enumerate(((axis, "axis"), (transverse, "transverse"))):

@@ -34,7 +34,7 @@ from .styles import (
     wrap,
 )
 from .trajectory import has_friction, slip_bounds, sticks, window, within
-from .words import describe, digits, in_places, unit_for
+from .words import describe, digits, in_places, unit_for, with_remark
 
 _LIFTED = 1e-4  # [m]; smaller gaps have no panel
 
@@ -70,7 +70,8 @@ def plot_response(
     sticks; the third marks peak and residual, and draws stops near the displacement as lines. If
     the slider settled after the last sample, the picture shows that tail too. Under vertical
     motion a fourth panel shows the normal force, and a fifth the gap between slider and ground if
-    it exceeds 0.1 mm at a sample; both shade the times without contact.
+    it exceeds 0.1 mm at a sample; both shade the times without contact. The remark of the response,
+    if it has one, is below the title.
 
     Parameters
     ----------
@@ -110,7 +111,8 @@ def plot_response(
         length, unit = unit_for(np.abs(x).max())
         fast, fast_unit = unit_for(np.abs(v).max())
 
-        put_title(ground, response.motion, title, describe(response.slider))
+        heading = with_remark(describe(response.slider), response)
+        put_title(ground, response.motion, title, heading)
         draw_ground(ground, response, begin, end)
         lower, upper = slip_bounds(response.slider, curve)
         if "liftoff" in response.events["kind"]:  # nothing holds a slider in flight

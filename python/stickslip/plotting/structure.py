@@ -22,7 +22,7 @@ from .figures import Place, new_figure
 from .panels import draw_stops, mark_end, mark_peak, near_stops, shade_sticks
 from .styles import BLUE, COLORS, GRAY, VERMILION, put_figure_title, put_title, style
 from .trajectory import sticks, window
-from .words import describe_ensemble, describe_system, unit_for
+from .words import describe_ensemble, describe_system, unit_for, with_remark
 
 _BANDS = (0.05, 0.16, 0.5, 0.84, 0.95)
 _ACCELERATION, _DRIFT = "largest absolute acceleration [g]", "largest drift [mm]"
@@ -72,7 +72,7 @@ def plot_structure_response(
             top = figure.add_subplot(grid[0, :])
         _draw_interface(top, response, title)
         if floors is not None:
-            of = "ground" if isinstance(system, EquipmentOnFloor) else "base"
+            lowest = "ground" if isinstance(system, EquipmentOnFloor) else "base"
             peaks = np.append(response.peak_base_acceleration, floors.peak_acceleration)
             panels = [(0, peaks / STANDARD_GRAVITY, _ACCELERATION)]
             if has_drifts(response):
@@ -81,7 +81,7 @@ def plot_structure_response(
                 panel = figure.add_subplot(grid[1, k] if len(panels) > 1 else grid[1, :])
                 number = np.arange(first, len(peaks))
                 panel.plot(values, number, "o-", color=VERMILION, markersize=4, clip_on=False)
-                _set_floors(panel, number, name, of)
+                _set_floors(panel, number, name, lowest)
                 if isinstance(system, EquipmentOnFloor) and first == 0:
                     panel.annotate(
                         "equipment",
@@ -97,9 +97,8 @@ def plot_structure_response(
 
 def _draw_interface(axes: Axes, response: StructureResponse, title: str | None) -> None:
     """Draw the displacement of the interface with its sticks, stops, peak, residual and remark."""
-    what = describe_system(response.system)
-    remark = response.remark
-    put_title(axes, response.motion, title, f"{what}\nremark: {remark}" if remark else what)
+    below = with_remark(describe_system(response.system), response)
+    put_title(axes, response.motion, title, below)
     curve = response._curve()
     t, x = curve["time"], curve["displacement"]
     length, unit = unit_for(response.peak)
@@ -174,10 +173,15 @@ def plot_floors(
         drifts, base = peaks.peak_floor_drift.values, peaks.peak_base_acceleration
         thin = False
         _require_some(*accelerations.shape)
+        kind = peaks.configuration["slider"]
+        on_ground, slope = "equipment_on_floor" in kind, "flexible_slope" in kind
     else:
         accelerations, drifts, base = _peaks_of(peaks)
         heading = f"{len(peaks)} responses"
         thin = len(peaks) <= 50
+        on_ground, slope = (
+            isinstance(peaks[0].system, kind) for kind in (EquipmentOnFloor, FlexibleSlope)
+        )
     with style():
         figure = figure or new_figure(7, 4)
         put_figure_title(figure, title or heading)
@@ -207,7 +211,9 @@ def plot_floors(
             )
             if thin:
                 panel.plot(values.T, number, color=GRAY, linewidth=0.4, zorder=1)
-            _set_floors(panel, number, name, "base")
+            _set_floors(panel, number, name, "ground" if on_ground else "base")
+            if slope:
+                panel.set(ylabel="", yticks=number, yticklabels=["base", "top"][first:])
         above = {"loc": "lower right", "bbox_to_anchor": (1, 1), "ncols": 3}
         figure.axes[-1].legend(**above, fontsize=8)
         return figure

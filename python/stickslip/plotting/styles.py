@@ -92,6 +92,8 @@ def wrapped(axes: Axes, title: str) -> str:
 
 def wrap_items(text: str, room: float, size: float) -> str:
     """Text in lines that end between its items, or between words where an item is too long."""
+    if "\n" in text:
+        return "\n".join(wrap_items(line, room, size) for line in text.splitlines())
     joined = ", ".join(item.replace(" ", "\N{NO-BREAK SPACE}") for item in text.split(", "))
     lines = wrap(joined, room, size).replace("\N{NO-BREAK SPACE}", " ")
     whole = all(line.endswith(",") for line in lines.splitlines()[:-1])

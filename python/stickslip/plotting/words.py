@@ -22,7 +22,7 @@ def describe(slider: Any) -> str:
 def describe_system(system: Any) -> str:
     """The same of a structure, such as 'equipment on floor 2 of 3, slip level 0.1 g'."""
     if isinstance(system, FlexibleSlope):
-        level = system.ky_g if isinstance(system.ky_g, float) else system.ky_g.mu[0]
+        level = getattr(system.ky_g, "mu", [system.ky_g])[0]
         return (
             f"flexible slope, yield acceleration {digits(level)} g, height"
             f" {digits(system.height)} m, shear velocity {digits(system.shear_velocity)} m/s,"
@@ -34,6 +34,11 @@ def describe_system(system: Any) -> str:
     else:
         what = "isolated structure" + (f" of {floors} floor{'s' * (floors > 1)}" if floors else "")
     return f"{what}, {describe(system.slider)}"
+
+
+def with_remark(text: str, response: Any) -> str:
+    """The text, and the remark of a response, if it has one, in a line below."""
+    return f"{text}\nremark: {response.remark}" if response.remark else text
 
 
 def describe_ensemble(ensemble: Ensemble) -> str:
