@@ -484,6 +484,7 @@ TEST_CASE("what looks like a unit and is none is not passed over", "[records]") 
   }
   CHECK_THAT(refusal("# Units: g (1 g = 9.81 m/s2)\nTime,NS\n" + rows(",", seconds), {.units = "m/s^2"}),
              ContainsSubstring("the file states 'g'"));
+  CHECK(read("t,H1\nms,%g\n" + rows(",", [](int i) { return std::to_string(10 * i); })).dt() == 0.01);
   // In percent of g: read as such, or refused; never as g.
   CHECK(read("%g\n" + rows(",", seconds)).peak_acceleration() == Approx(0.01 * g * largest()).epsilon(1e-6));
 }
@@ -494,6 +495,23 @@ TEST_CASE("one direction is that of the record", "[records]") {
     CAPTURE(line);
     CHECK(upward(read(line + rows(",", seconds), {.units = "g"}).orientation()));
   }
+}
+
+TEST_CASE("labels name the vertical in many ways, and not by a word that is part of another", "[records]") {
+  for (const char* label : {"Z-axis", "Acc Z-axis", "Z direction", "z-Richtung", "Komponente Z", "RSN1_A-UP",
+                            "KOBE_KJM-UP", "Linear Acceleration z", "ACCELEROMETER Z", "acc up", "Up", "KJM_UD"}) {
+    CAPTURE(label);
+    CHECK(upward(read("Time (s)," + std::string(label) + " (g)\n" + rows(",", seconds)).orientation()));
+  }
+  for (const char* label : {"Scaled up", "made up acc", "Acc"}) {
+    CAPTURE(label);
+    CHECK(one("Time (s)," + std::string(label) + " (g)\n" + rows(",", seconds)).motion.orientation().empty());
+  }
+  const auto both = [](int i) { return seconds(i) + print(",%.7f", 0.5 * sample(i)); };
+  for (const RecordComponent& each : parse_components("time,0,1\n" + rows(",", both), "a.csv", {.units = "g"}))
+    CHECK(each.motion.orientation().empty());  // of pandas
+  CHECK_THAT(refusal("# Component: N\n# Component: UP\n" + rows(",", seconds), {.units = "g"}),
+             ContainsSubstring("line 1: states another direction"));
 }
 
 TEST_CASE("components side by side are no record in reading order", "[records]") {

@@ -185,6 +185,32 @@ def test_what_systems_and_people_put_into_archives_is_no_failure(tmp_path):
     assert ss.read_record(tmp_path / "b.zip").dt == 0.1
 
 
+@pytest.mark.parametrize("end", ["at a header", "within a header"])
+def test_a_tar_archive_that_is_cut_off_is_refused(tmp_path, end):
+    stream = io.BytesIO()
+    with tarfile.open(fileobj=stream, mode="w") as archive:
+        for number in range(1, 4):
+            content = f"# units: g\n0,{number}\n.1,2\n".encode()
+            about = tarfile.TarInfo(f"{number}.csv")
+            about.size = len(content)
+            archive.addfile(about, io.BytesIO(content))
+    whole = stream.getvalue()
+    (tmp_path / "whole.tar").write_bytes(whole)
+    assert len(ss.Suite.read(tmp_path / "whole.tar")) == 3
+    (tmp_path / "cut.tar").write_bytes(whole[: 2048 + (100 if end == "within a header" else 0)])
+    with pytest.raises(ValueError, match="the archive is cut off"):
+        ss.Suite.read(tmp_path / "cut.tar")
+
+
+@pytest.mark.filterwarnings("ignore:Duplicate name")
+def test_two_files_of_one_name_in_an_archive_are_refused(tmp_path):
+    with zipfile.ZipFile(tmp_path / "a.zip", "w") as archive:
+        archive.writestr("a.AT2", peer("000"))
+        archive.writestr("a.AT2", peer("090"))
+    with pytest.raises(ValueError, match=r"two files in the archive are named a\.AT2"):
+        ss.Suite.read(tmp_path / "a.zip")
+
+
 def test_a_workbook_is_no_archive_of_records(tmp_path):
     with zipfile.ZipFile(tmp_path / "a.xlsx", "w") as archive:
         archive.writestr("[Content_Types].xml", "<Types/>")

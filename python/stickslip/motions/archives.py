@@ -97,7 +97,12 @@ def archive_in(content: bytes, shown: str) -> Archive | None:
     else:
         # Members are read and never unpacked into the file system: their names need no filter.
         tar = guarded(lambda: tarfile.TarFile(fileobj=stream))
-        names = [one.name for one in guarded(tar.getmembers) if one.isfile()]
+        members = guarded(tar.getmembers)
+        names = [one.name for one in members if one.isfile()]
+        # The end is a block of zeros; tarfile takes a header that is cut off for it.
+        end = max((one.offset_data + -(-one.size // 512) * 512 for one in members), default=0)
+        if len(content) < end + 512 or content[end : end + 512].strip(b"\0"):
+            raise ValueError(f"read_record: {shown}: the archive is cut off")
 
         def read(name: str) -> bytes:
             file = tar.extractfile(name)
@@ -107,6 +112,8 @@ def archive_in(content: bytes, shown: str) -> Archive | None:
     if "[Content_Types].xml" in names:
         raise ValueError(f"read_record: {shown}: a workbook or document: save its table as CSV")
     files = [name for name in names if not _OF_A_SYSTEM.search(name)]
+    if twice := sorted({name for name in files if files.count(name) > 1}):
+        raise ValueError(f"read_record: {shown}: two files in the archive are named {twice[0]}")
     return Archive(files, lambda name: guarded(lambda: read(name)))
 
 

@@ -104,8 +104,10 @@ bool is_acceleration_word(std::string_view word) {
 /// Words that say nothing beside a direction.
 bool is_neutral(std::string_view word) {
   return is_acceleration_word(word) ||
-         is_one_of(word, {"a", "ag", "ug", "in", "the", "component", "comp", "channel", "chan", "ch", "corrected",
-                          "cor", "filtered", "ground", "motion", "dir"});
+         is_one_of(word,
+                   {"a",    "ag",        "ug",        "in",         "the",           "component", "comp",   "channel",
+                    "chan", "ch",        "corrected", "cor",        "filtered",      "ground",    "motion", "dir",
+                    "axis", "direction", "richtung",  "komponente", "accelerometer", "linear"});
 }
 
 /// The direction that a label states: its whole name, a text in brackets, or one of its words; one letter only beside
@@ -118,9 +120,11 @@ std::string direction_in(std::string_view name, const std::vector<std::string_vi
   for (const std::string_view text : bracketed)
     if (std::string found = orientation_in(text); !found.empty() && found == text && !is_digit(text[0])) return found;
   const std::vector<std::string_view> words = words_of(name);
-  const bool neutral =
-      std::ranges::all_of(words, [](std::string_view word) { return word.size() == 1 || is_neutral(word); });
+  const bool neutral = std::ranges::all_of(words, [](std::string_view word) {
+    return word.size() == 1 || is_neutral(word) || is_one_of(word, {"up", "down"});
+  });
   std::string found;
+  bool no_direction = false;
   for (std::string_view word : words) {
     bool direction = false;  // az, ugz, accz, zacc
     for (const std::string_view begin : {"a", "ag", "ug", "acc", "accel"})
@@ -143,12 +147,16 @@ std::string direction_in(std::string_view name, const std::vector<std::string_vi
     const bool letter =
         word.size() == 1 && !direction && (!neutral || of_number || !is_one_of(word, {"N", "E", "S", "W", "Z", "V"}));
     if (letter || is_neutral(word)) continue;
-    const std::string one = word.size() == 1 || !is_one_of(word, {"up", "down"}) || words.size() <= 2
-                                ? orientation_in(word)
-                                : std::string();
+    // "made up" and "scaled up" are no directions; "RSN1_A-UP" and "acc up" are.
+    const bool after_mark = at > 0 && (name[at - 1] == '-' || name[at - 1] == '_') && word[0] < 'a';
+    if (is_one_of(word, {"up", "down"}) && !after_mark && !neutral && words.size() > 1) {
+      no_direction = true;
+      continue;
+    }
+    const std::string one = orientation_in(word);
     if (!one.empty() && !is_digit(one[0]) && found.empty()) found = one;
   }
-  if (!found.empty()) return found;
+  if (!found.empty() || no_direction) return found;
   found = orientation_in(name);  // N28W, N-S, 230 deg; a letter alone was not one above
   return found.size() > 1 ? found : std::string();
 }
@@ -464,9 +472,7 @@ std::string_view without_mark(std::string_view line) {
 
 std::vector<std::string> units_in(std::string_view line, std::size_t columns) {
   std::vector<std::string_view> fields;
-  split_row(line, fields);
-  if (std::ranges::any_of(fields, [](std::string_view field) { return same(field, "%g"); })) return {"%g"};
-  line = without_mark(line);
+  if (!same(trim(line).substr(0, 2), "%g")) line = without_mark(line);  // a unit, and no mark of a comment
   // What may stand before the unit.
   bool says_unit = false, says_acceleration = false, says_which = false;  // `units:`, `units are`
   const std::string_view whole = line;

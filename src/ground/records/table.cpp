@@ -229,6 +229,8 @@ Heading heading_of(const Lines& lines, std::size_t rows, std::size_t columns) {
       continue;
     }
     if (const std::string direction = direction_of(line); !direction.empty()) {
+      if (!heading.direction.empty() && heading.direction != direction)
+        refuse_line(i, "states another direction than a line below it: " + quote(line));
       heading.direction = direction;
       continue;
     }
@@ -638,7 +640,8 @@ std::vector<Channel> read_columns(const Lines& lines, bool run_together) {
       channel.label = label.text;
       channel.orientation = label.direction;
       channel.units = label.unit;
-      if (roles.acceleration.size() > 1) channel.name = label.name;
+      // The numbers with which pandas labels columns are no azimuths.
+      if (roles.acceleration.size() > 1 && !(is_whole(label.name) && label.name.size() < 3)) channel.name = label.name;
       if (!channel.name.empty()) channel.title = joined({heading.title, channel.name});
       if (heading.title.empty()) channel.title.clear();
     }
