@@ -176,10 +176,12 @@ def test_processes_that_die_leave_what_was_done(slow_whole, tmp_path):
     )
 
 
-def test_what_cannot_be_pickled_is_said(processes):
+def test_what_cannot_be_pickled_is_said(processes, monkeypatch):
     class Local(Delayed):
         pass
 
+    # Said before the pool has it, which might otherwise wait for ever where it ends.
+    monkeypatch.setattr(processes, "submit", lambda *task: pytest.fail("was submitted"))
     with pytest.raises(ss.EnsembleError, match="pickle"):
         run(processes, Local())
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
+from multiprocessing.reduction import ForkingPickler
 from typing import Any, Generic, TypeVar
 
 from .checkpoint import Checkpoint
@@ -27,6 +28,12 @@ def check_executor(who: str, executor: Executor | None, threads: int | None) -> 
         raise TypeError(
             f"{who}: executor must be a concurrent.futures.Executor, got {type(executor).__name__}"
         )
+
+
+def _unpickled(task: bytes) -> Any:
+    """Do in another process what was pickled for it."""
+    work, arguments = ForkingPickler.loads(task)
+    return work(*arguments)
 
 
 class Parts(ABC, Generic[Results, _Result]):
@@ -61,7 +68,12 @@ class Parts(ABC, Generic[Results, _Result]):
     def submit(self, part: Sequence[int], work: Callable[..., _Result], *arguments: Any) -> None:
         """Submit a part."""
         try:
-            future = self.executor.submit(work, *arguments)
+            if isinstance(self.executor, ProcessPoolExecutor):
+                # Pickled here: a pool that fails at this itself may wait for ever where it ends.
+                task = bytes(ForkingPickler.dumps((work, arguments)))
+                future: Future[_Result] = self.executor.submit(_unpickled, task)
+            else:
+                future = self.executor.submit(work, *arguments)
         except Exception as error:  # such as from a pool whose processes are gone
             raise self.keeper.error._of_part(part, error, self.so_far) from error
         self.flying[future] = part
