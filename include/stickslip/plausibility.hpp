@@ -20,8 +20,8 @@ struct UnitMistake {
   double factor = 1, power = 1, offset = 0;
 };
 
-/// The range of a quantity. Values from `low` to below `high` are plausible, and so are infinity and what is so large that it can
-/// only be meant. What is given and not positive is left to the constructor.
+/// The range of a quantity. Values from `low` to below `high` are plausible. So are those from `meant_from` on, which
+/// nobody gives by mistake. The constructor of the object checks given values that are not positive.
 struct PlausibleRange {
   std::string_view quantity;
   const char* unit;

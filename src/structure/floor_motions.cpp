@@ -116,33 +116,23 @@ GroundMotion divided(const GroundMotion& motion, int parts) {
       .with_components(of(motion.transverse()), of(motion.vertical()));
 }
 
-// The transverse component as a motion along its axis.
-GroundMotion transverse_of(const GroundMotion& motion) {
-  const std::vector<double> values(motion.transverse().begin(), motion.transverse().end());
-  if (std::isfinite(motion.dt())) return GroundMotion(values, motion.dt(), motion.interpolation());
-  std::vector<double> times;
-  for (std::size_t i = 0; i < motion.samples(); ++i) times.push_back(motion.time(i));
-  return GroundMotion(values, times, motion.interpolation());
-}
-
 }  // namespace
 
 std::vector<GroundMotion> floor_motions(const Structure& structure, const GroundMotion& motion, int parts,
                                         const std::optional<Structure>& transverse) {
-  for (const Structure& one : {structure, transverse.value_or(structure)})
-    if (one.floors() == 0)
-      throw std::invalid_argument("floor_motions: needs a structure with floors; give from_modes the shapes");
+  const Structure& other = transverse ? *transverse : structure;
+  if (structure.floors() == 0 || other.floors() == 0)
+    throw std::invalid_argument("floor_motions: needs a structure with floors; give from_modes the shapes");
   detail::require(parts >= 1, "floor_motions: parts must be at least 1", parts);
   if (transverse && !motion.has_transverse())
     throw std::invalid_argument("floor_motions: a transverse structure needs a motion with a transverse component");
-  if (transverse && transverse->floors() != structure.floors())
+  if (other.floors() != structure.floors())
     throw std::invalid_argument("floor_motions: the transverse structure must have " +
-                                std::to_string(structure.floors()) + " floors, got " +
-                                std::to_string(transverse->floors()));
+                                std::to_string(structure.floors()) + " floors, got " + std::to_string(other.floors()));
   const GroundMotion fine = divided(motion, parts);
   const Eigen::MatrixXd along = accelerations_of(structure, fine);
   Eigen::MatrixXd across;
-  if (fine.has_transverse()) across = accelerations_of(transverse.value_or(structure), transverse_of(fine));
+  if (fine.has_transverse()) across = accelerations_of(other, fine.component(Component::transverse));
 
   std::vector<GroundMotion> result;
   const std::vector<double> up(fine.vertical().begin(), fine.vertical().end());

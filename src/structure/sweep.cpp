@@ -170,7 +170,7 @@ class SweptInterface {
     const LoadSegment calm{step, 0, 0, standard_gravity, standard_gravity};
     std::optional<StuckBound> bound, left;
     if (stuck_.empty()) bound.emplace(of_);
-    for (std::size_t steps = 0, look = 0;; ++steps) {
+    for (std::size_t steps = 0, look = calm_steps_per_look;; ++steps) {  // most rest before
       double amplitude = never;
       if (state_.mode == Mode::stuck) {
         hold_from_here(1);

@@ -16,8 +16,9 @@ namespace stickslip {
 /// They are exact to round-off at the samples. Between them a slider sees straight lines, an EquipmentOnFloor without
 /// mass sees the exact motion: the difference falls with the square of the step, 1 / parts. They end with the ground
 /// motion.
+///
+/// The transverse component shakes the structure in its other direction; the two directions are not coupled by torsion.
 /// @param structure  with floors: `from_modes` needs shapes
-/// A transverse component acts on a building of its own, without torsion.
 /// @param transverse  the structure in the transverse direction, with as many floors; the same one if not given
 /// @param parts      equal parts of each segment, at least 1: the result has that many times more samples
 /// @return one motion per floor, the lowest first

@@ -9,6 +9,7 @@ import os
 import re
 import stat
 import sys
+from collections import Counter
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
@@ -112,8 +113,8 @@ def archive_in(content: bytes, shown: str) -> Archive | None:
     if "[Content_Types].xml" in names:
         raise ValueError(f"read_record: {shown}: a workbook or document: save its table as CSV")
     files = [name for name in names if not _OF_A_SYSTEM.search(name)]
-    if twice := sorted({name for name in files if files.count(name) > 1}):
-        raise ValueError(f"read_record: {shown}: two files in the archive are named {twice[0]}")
+    if twice := [name for name, count in Counter(files).items() if count > 1]:
+        raise ValueError(f"read_record: {shown}: two files in the archive are named {min(twice)}")
     return Archive(files, lambda name: guarded(lambda: read(name)))
 
 

@@ -69,7 +69,7 @@ class Parts(ABC, Generic[Results, _Result]):
         """Submit a part."""
         try:
             if isinstance(self.executor, ProcessPoolExecutor):
-                # Pickled here: a pool that fails at this itself may wait for ever where it ends.
+                # Where a pool itself fails to pickle a task, its shutdown may never return.
                 task = bytes(ForkingPickler.dumps((work, arguments)))
                 future: Future[_Result] = self.executor.submit(_unpickled, task)
             else:

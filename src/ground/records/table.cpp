@@ -29,6 +29,7 @@
 
 #include "stickslip/error.hpp"
 #include "stickslip/ground/orientation.hpp"
+#include "stickslip/plausibility.hpp"
 
 namespace stickslip::records {
 namespace {
@@ -328,7 +329,7 @@ Columns columns_of(const Heading& heading, const std::vector<std::string_view>& 
 enum class First { times, row_numbers, acceleration };
 
 /// Whether a number of seconds is a usual step of records.
-bool is_usual_step(double seconds) { return seconds >= 0.0005 * (1 - 1e-9) && seconds <= 0.1 * (1 + 1e-9); }
+bool is_usual_step(double seconds) { return plausible_range("time step of a record").holds(seconds); }
 
 /// The digits behind the point of a number.
 std::size_t decimals(std::string_view number) {
