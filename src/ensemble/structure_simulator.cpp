@@ -14,14 +14,11 @@
 namespace stickslip::detail {
 namespace {
 
-// Computes the peaks and the impacts of a member, and checks regularly whether the run was stopped.
-class StructurePeakObserver final : public StructureSink {
+class StructurePeakObserver final : public StructureSink, public MemberTally {
  public:
   StructurePeakObserver(const ModalInterface& of, const FloorRows& rows, const Block& block, std::size_t event_limit)
-      : block_(block), floors_(of, rows), event_limit_(event_limit) {}
+      : MemberTally(block, event_limit), floors_(of, rows) {}
 
-  double peak() const noexcept { return peak_; }
-  const Impacts& impacts() const noexcept { return impacts_; }
   std::vector<double> floor_peaks() const {
     std::vector<double> numbers{floors_.base_acceleration(), floors_.base_shear()};
     const auto add = [&](const auto& values) { numbers.insert(numbers.end(), values.begin(), values.end()); };
@@ -32,28 +29,16 @@ class StructurePeakObserver final : public StructureSink {
   }
 
   void event(EventKind kind, double, const InterfacePlace& place) override {
-    if (kind == EventKind::impact) impacts_.add(place.displacement, place.velocity);
-    reach(place.displacement);  // x is monotonic between events
-    count_work();
-    if (++events_ > event_limit_) refuse_more_events(event_limit_);
+    reach(std::abs(place.displacement));  // x is monotonic between events
+    count_event(kind, place.displacement, place.velocity);
   }
   void follow(const Expansion& motion, Mode) override {
     count_work();
     floors_.include(motion);
   }
-  void reach(double x) noexcept { peak_ = std::max(peak_, std::abs(x)); }
 
  private:
-  void count_work() {
-    if (++work_ % StructureRecorder::work_per_report == 0) block_.check_stopped();
-  }
-
-  const Block& block_;
   FloorMaxima floors_;
-  std::size_t event_limit_, events_ = 0;
-  std::uint32_t work_ = 0;
-  double peak_ = 0;
-  Impacts impacts_;
 };
 
 }  // namespace
@@ -76,7 +61,7 @@ void simulate_member(const SlidingStructure& system, const GroundMotion& motion,
         go(calm);
       });
   });
-  observer.reach(state.displacement);
+  observer.reach(std::abs(state.displacement));
   place.end(observer.peak(), state.displacement);
   if (of.stops) block.impacts(place.index, gaps_of(of.stops), observer.impacts());
   block.floors(place.index, observer.floor_peaks());

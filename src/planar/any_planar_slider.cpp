@@ -1,6 +1,7 @@
 // Sliders of any law in the plane.
 #include "stickslip/planar/any_planar_slider.hpp"
 
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -77,14 +78,49 @@ AnySlider along_axis(const AnyPlanarSlider& slider) {
   return std::visit([](const auto& one) -> AnySlider { return one.along_axis(); }, slider);
 }
 
+namespace {
+
+// The result of `use` with the engine of a slider. What is computed of whole motions is compiled once, not for each law.
+template <class Use>
+auto with_engine(const AnyPlanarSlider& slider, Use&& use) {
+  return use(*std::visit(
+      []<class Law>(const PlanarSlider<Law>& one) -> std::unique_ptr<const detail::PlanarEngine> {
+        return std::make_unique<detail::PlanarEngineOf<Law>>(one);
+      },
+      slider));
+}
+
+}  // namespace
+
 PlanarResponse integrate(const AnyPlanarSlider& slider, const GroundMotion& motion,
                          const PlanarIntegrateOptions& options, PlanarResponse storage) {
-  return std::visit([&](const auto& one) { return integrate(one, motion, options, std::move(storage)); }, slider);
+  return with_engine(slider, [&](const detail::PlanarEngine& engine) {
+    return detail::integrate(engine, motion, options, std::move(storage));
+  });
 }
 
 PlanarHistories histories(const AnyPlanarSlider& slider, const GroundMotion& motion,
                           const std::function<void()>& progress) {
-  return std::visit([&](const auto& one) { return histories(one, motion, progress); }, slider);
+  return with_engine(slider, [&](const auto& engine) { return detail::histories(engine, motion, progress); });
+}
+
+PlanarForces forces(const AnyPlanarSlider& slider, const GroundMotion& motion, const PlanarResponse& response) {
+  return with_engine(slider, [&](const auto& engine) { return detail::forces(engine, motion, response); });
+}
+
+Margins margins(const AnyPlanarSlider& slider, const GroundMotion& motion, const PlanarResponse& response) {
+  return with_engine(slider, [&](const auto& engine) { return detail::margins(engine, motion, response); });
+}
+
+PlanarFloorMotion floor_motion(const AnyPlanarSlider& slider, const GroundMotion& motion,
+                               const PlanarResponse& response, double tolerance) {
+  return with_engine(slider,
+                     [&](const auto& engine) { return detail::floor_motion(engine, motion, response, tolerance); });
+}
+
+std::vector<PlanarState> states_at(const AnyPlanarSlider& slider, const GroundMotion& motion,
+                                   const PlanarResponse& response, std::span<const double> times) {
+  return with_engine(slider, [&](const auto& engine) { return detail::states_at(engine, motion, response, times); });
 }
 
 void advance(const AnyPlanarSlider& slider, const PlanarSegment& segment, PlanarState& state, Contact contact,

@@ -24,6 +24,9 @@ namespace stickslip::detail {
 
 /// Where and how fast the interface is at an event.
 struct InterfacePlace {
+  InterfacePlace(double x, double v) noexcept : displacement(x), velocity(v) {}
+  InterfacePlace(const StructureState& state) noexcept : InterfacePlace(state.displacement, state.velocity) {}
+
   double displacement, velocity;
 };
 
@@ -90,7 +93,7 @@ class StructureMotion {
   double left() const noexcept { return left_; }
   /// While an arrest has not been shown yet, its time: a search for the next slip moves through the segment.
   double elapsed() const noexcept { return ground_.duration - (has_stopped() ? stopped_left_ : left_); }
-  InterfacePlace state() const noexcept { return {state_.displacement, state_.velocity}; }
+  InterfacePlace state() const noexcept { return state_; }
   InterfacePlace resting_state() const noexcept { return {state_.displacement, 0}; }
   bool at_rest() const noexcept { return state_.mode == Mode::stuck; }
   bool has_stopped() const noexcept { return stopped_ != Mode::stuck; }

@@ -111,7 +111,6 @@ inline bool holds_forever(double pull, double amplitude, const StuckLevels& leve
 inline constexpr std::size_t most_calm_steps = 1'000'000;
 
 bool finite(const StructureState& state);
-[[noreturn]] void refuse_overflow(double peak);
 [[noreturn]] void refuse_restless(double step, const StructureState& state, double demand);
 
 /// How often it is asked whether that can be.

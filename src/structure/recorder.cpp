@@ -64,7 +64,7 @@ FloorRows::FloorRows(const ModalInterface& of) : floors(of.shapes.rows()), stori
 StructureRecorder::StructureRecorder(const ModalInterface& of, const FloorRows* rows, bool loops, double from,
                                      std::size_t event_limit, const std::function<void()>& progress,
                                      StructureResponse& response)
-    : of_(of), response_(response), loops_(loops), event_limit_(event_limit), progress_(progress) {
+    : EventLog(event_limit, {}), Pace(progress), of_(of), response_(response), loops_(loops) {
   response_.peak = std::abs(from);
   response_.margin = std::numeric_limits<double>::infinity();
   if (rows != nullptr) floors_.emplace(of, *rows);
@@ -72,9 +72,7 @@ StructureRecorder::StructureRecorder(const ModalInterface& of, const FloorRows* 
 
 void StructureRecorder::event(EventKind kind, double time, const InterfacePlace& place) {
   count_work();
-  if (response_.events.size() >= event_limit_) refuse_more_events(event_limit_, segment_begins_ + time);
-  response_.events.push_back(
-      {std::min(segment_begins_ + time, segment_ends_), place.displacement, place.velocity, kind});
+  add(kind, time, place.displacement, place.velocity);
   response_.peak = std::max(response_.peak, std::abs(place.displacement));  // x is monotonic between events
 }
 
@@ -96,7 +94,7 @@ void StructureRecorder::draw(const Expansion& motion, Mode mode) {
       force += at(motion.demand(), u);
     else
       force += s * at(motion.friction(), u) + of_.damper * at(motion.velocity(), u);
-    const InterfacePoint next{std::min(now_ + u * motion.duration(), segment_ends_), at(motion.displacement(), u),
+    const InterfacePoint next{std::min(now_ + u * motion.duration(), segment_ends()), at(motion.displacement(), u),
                               force};
     auto& points = response_.loops;
     if (i > 0 || points.empty() || std::abs(points.back().force - force) > 1e-12 * std::abs(force))
@@ -179,13 +177,14 @@ void FloorMaxima::include(const Expansion& motion) {
   examine(rows_.drifts, displacements, false, drifts_);
 }
 
-void StructureRecorder::finish() {
+void StructureRecorder::finish(StructureResponse& response) {
+  response.events = take();
   if (!floors_) return;
-  response_.peak_base_acceleration = floors_->base_acceleration();
-  response_.floors.peak_acceleration = values(floors_->accelerations());
-  response_.floors.peak_drift = values(floors_->drifts());
-  response_.floors.peak_shear = values(floors_->shears());
-  response_.peak_base_shear = floors_->base_shear();
+  response.peak_base_acceleration = floors_->base_acceleration();
+  response.floors.peak_acceleration = values(floors_->accelerations());
+  response.floors.peak_drift = values(floors_->drifts());
+  response.floors.peak_shear = values(floors_->shears());
+  response.peak_base_shear = floors_->base_shear();
 }
 
 }  // namespace stickslip::detail

@@ -11,7 +11,7 @@
 
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
-#include "stickslip/sliding/detail/recorder.hpp"
+#include "stickslip/run/event_log.hpp"
 #include "stickslip/structure/response.hpp"
 #include "structure/expansion.hpp"
 #include "structure/motion.hpp"
@@ -54,33 +54,28 @@ class FloorMaxima {
   Eigen::VectorXd forces_, drifts_;  // in the order of the rows
 };
 
-class StructureRecorder final : public StructureSink {
+class StructureRecorder : public StructureSink, public EventLog<double>, public Pace<4096> {
  public:
-  static constexpr std::uint32_t work_per_report = 4096;  // segments, events or expansions
-
   /// @param loops  whether to keep StructureResponse::loops
   StructureRecorder(const ModalInterface& of, const FloorRows* rows, bool loops, double from, std::size_t event_limit,
                     const std::function<void()>& progress, StructureResponse& response);
 
   void begin_segment(double begin, double end) noexcept {
-    segment_begins_ = now_ = begin;
-    segment_ends_ = end;
-  }
-  void report_progress() const {
-    if (progress_) progress_();
+    EventLog::begin_segment(begin, end);
+    now_ = begin;
   }
 
   void event(EventKind kind, double time, const InterfacePlace& place) override;
   void follow(const Expansion& motion, Mode mode) override;
   void lose(double energy) override { response_.energy.impact += energy; }
   void decide(double difference) override { response_.margin = std::min(response_.margin, difference); }
-  /// Writes the peaks of the floors.
-  void finish();
+  /// Writes the events, and the peaks of the floors.
+  void finish(StructureResponse& response);
+
+ protected:
+  ~StructureRecorder() = default;
 
  private:
-  void count_work() {
-    if (++work_ % work_per_report == 0) report_progress();
-  }
   void add_work(const Expansion& motion, Mode mode);
   void draw(const Expansion& motion, Mode mode);
 
@@ -88,11 +83,7 @@ class StructureRecorder final : public StructureSink {
   std::optional<FloorMaxima> floors_{};
   StructureResponse& response_;
   bool loops_;
-  double segment_begins_ = 0, segment_ends_ = 0;
   double now_ = 0;  // the beginning of the next expansion [s]
-  std::size_t event_limit_;
-  std::uint32_t work_ = 0;
-  const std::function<void()>& progress_;
 };
 
 /// Records nothing.

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "stickslip/error.hpp"
+#include "stickslip/run/options.hpp"
+#include "stickslip/run/run.hpp"
 #include "stickslip/sliding/detail/run.hpp"
 #include "structure/modal_interface.hpp"
 #include "structure/move.hpp"
@@ -128,75 +130,121 @@ class Histories {
   bool heated_;
 };
 
+/// A structure under a ground motion, as a run (see RunOfSystem).
 template <FrictionLaw Law>
-StructureResponse integrate_with(const SlidingStructure& system, const Law& law, const GroundMotion& motion,
-                                 const StructureIntegrateOptions& options) {
-  const detail::ModalInterface& of = system.modal();
-  StructureState state = system.rest();
-  state.displacement = options.displacement;
-  state.velocity = options.velocity;
-  state.mode = State::at(0, options.velocity).mode;
-  state.sliding_distance = options.sliding_distance;
-  state.heat = options.heat;
-  check_start(system, state, "integrate");
+class StructureRun {
+ public:
+  using State = StructureState;
+  using Response = StructureResponse;
 
-  StructureResponse response;
-  response.contact = Contact::clipped;
-  if (motion.has_vertical()) response.components = "axis + vertical";
-  std::tie(response.energy.kinetic, response.energy.elastic) = energy_of(of, state);
-  response.energy.initial = response.energy.kinetic + response.energy.elastic;
-  const detail::FloorRows rows(of);
-  const detail::FloorRows* wanted = options.floors ? &rows : nullptr;
-  detail::StructureRecorder recorder(of, wanted, options.loops, state.displacement,
-                                     detail::max_events(motion.segments()), options.progress, response);
-  detail::LawExpansion<Law> expansion(of, law, detail::mean_step(motion));
-  Histories histories(system, response, motion.samples(), HeatedLaw<Law>);
-  const detail::LoadPieces pieces(motion, 0);
-  const auto weight = [](double normal) { return std::max(normal, 0.0) / standard_gravity; };
-  const auto keep = [&](std::size_t sample, double load, double normal) {
-    histories.keep(sample, law, state, -load, weight(normal));
+  class Recorder final : public detail::StructureRecorder {
+   public:
+    Recorder(const StructureRun& run, const State& state, Response& response)
+        : StructureRecorder(run.of_, run.wanted_, run.options_.loops, state.displacement,
+                            detail::max_events(run.motion_.segments()), run.options_.progress, response),
+          run_(run),
+          histories(run.system_, response, run.motion_.samples(), HeatedLaw<Law>) {}
+
+    void keep(std::size_t sample, const State& state, double load, double normal) {
+      histories.keep(sample, run_.law_, state, -load, std::max(normal, 0.0) / standard_gravity);
+    }
+    void finish(Response& response) {
+      StructureRecorder::finish(response);
+      histories.finish(run_.wanted_);
+    }
+
+   private:
+    const StructureRun& run_;
+    Histories histories;
   };
-  const LoadSegment first = pieces.segment(0);
-  keep(0, first.load_start, first.normal_start);
-  recorder.begin_segment(motion.time(0), motion.time(0));
-  if (state.mode != Mode::stuck) recorder.event(EventKind::breakaway, 0, {state.displacement, state.velocity});
-  detail::walk(
-      pieces, motion.segments(), detail::StructureRecorder::work_per_report,
-      [&](std::size_t i, double begin, double end, const LoadSegment& segment) {
-        recorder.begin_segment(begin, end);
-        detail::move_structure(of, law, segment, state, expansion, recorder);
-        keep(i + 1, segment.load_end, segment.normal_end);
-      },
-      [&] { recorder.report_progress(); });
-  double end = motion.time(motion.segments());
 
-  if (options.settle) {
-    std::size_t i = motion.segments();
-    detail::settle_structure(of, law, motion.last_step(), state, [&](const LoadSegment& calm) {
-      const double begin = std::exchange(end, motion.time(i + 1));
-      recorder.begin_segment(begin, end);
-      detail::move_structure(of, law, calm, state, expansion, recorder);
-      if (i + 1 < 10 * motion.samples())
-        keep(i + 1, 0, standard_gravity);
-      else
-        response.truncated = true;
-      if (i++ % detail::StructureRecorder::work_per_report == 0) recorder.report_progress();
-    });
-    response.settled = true;
+  StructureRun(const SlidingStructure& system, const Law& law, const GroundMotion& motion,
+               const StructureIntegrateOptions& options)
+      : system_(system),
+        of_(system.modal()),
+        law_(law),
+        motion_(motion),
+        options_(options),
+        rows_(of_),
+        wanted_(options.floors ? &rows_ : nullptr),
+        pieces_(motion, 0),
+        expansion_(of_, law, detail::mean_step(motion)) {}
+
+  const GroundMotion& motion() const noexcept { return motion_; }
+  const StructureIntegrateOptions& options() const noexcept { return options_; }
+
+  State start() const {
+    detail::check_start(options_);
+    State state = system_.rest();
+    state.displacement = options_.displacement;
+    state.velocity = options_.velocity;
+    state.mode = stickslip::State::at(0, options_.velocity).mode;
+    state.sliding_distance = options_.sliding_distance;
+    state.heat = options_.heat;
+    check_start(system_, state, "integrate");
+    return state;
   }
 
-  recorder.begin_segment(end, end);
-  recorder.event(EventKind::end, 0, {state.displacement, state.velocity});
-  recorder.finish();
-  histories.finish(wanted);
-  response.residual = state.displacement;
-  std::tie(response.energy.kinetic, response.energy.elastic) = energy_of(of, state);
-  response.state = detail::interface_of(state);
-  if (!std::isfinite(response.energy.imbalance()) || !std::isfinite(response.peak) || !detail::finite(state))
-    detail::refuse_overflow(response.peak);
-  response.final_state = std::move(state);
-  return response;
-}
+  Recorder recorder(const State& state, Response& response) const {
+    response.contact = Contact::clipped;
+    if (motion_.has_vertical()) response.components = "axis + vertical";
+    return {*this, state, response};
+  }
+
+  void walk(State& state, Recorder& recorder, Response&) const {
+    const LoadSegment first = pieces_.segment(0);
+    recorder.keep(0, state, first.load_start, first.normal_start);
+    detail::walk(
+        pieces_, motion_.segments(), Recorder::work_per_report,
+        [&](std::size_t i, double begin, double end, const LoadSegment& segment) {
+          move(begin, end, segment, state, recorder);
+          recorder.keep(i + 1, state, segment.load_end, segment.normal_end);
+        },
+        [&] { recorder.report_progress(); });
+  }
+
+  double settle(State& state, Recorder& recorder, Response& response) const {
+    std::size_t i = motion_.segments();
+    double end = motion_.time(i);
+    detail::settle_structure(of_, law_, motion_.last_step(), state, [&](const LoadSegment& calm) {
+      const double begin = std::exchange(end, motion_.time(i + 1));
+      move(begin, end, calm, state, recorder);
+      if (i + 1 < 10 * motion_.samples())
+        recorder.keep(i + 1, state, 0, standard_gravity);
+      else
+        response.truncated = true;
+      if (i++ % Recorder::work_per_report == 0) recorder.report_progress();
+    });
+    response.settled = true;
+    return end;
+  }
+
+  double kinetic(const State& state) const { return energy_of(of_, state).first; }
+  double elastic(const State& state) const { return energy_of(of_, state).second; }
+
+  void finish(State&& state, Response& response) const {
+    if (!detail::finite(state)) detail::refuse_overflow(response.peak);
+    response.residual = state.displacement;
+    response.state = detail::interface_of(state);
+    response.final_state = std::move(state);
+  }
+
+ private:
+  void move(double begin, double end, const LoadSegment& segment, State& state, Recorder& recorder) const {
+    recorder.begin_segment(begin, end);
+    detail::move_structure(of_, law_, segment, state, expansion_, recorder);
+  }
+
+  const SlidingStructure& system_;
+  const detail::ModalInterface& of_;
+  const Law& law_;
+  const GroundMotion& motion_;
+  const StructureIntegrateOptions& options_;
+  detail::FloorRows rows_;
+  const detail::FloorRows* wanted_;  // null for none
+  detail::LoadPieces pieces_;
+  mutable detail::LawExpansion<Law> expansion_;  // room for the steps
+};
 
 }  // namespace
 
@@ -205,11 +253,6 @@ namespace detail {
 bool finite(const StructureState& state) {
   return std::isfinite(state.displacement) && std::isfinite(state.velocity) &&
          view(state.modal_displacement).allFinite() && view(state.modal_velocity).allFinite();
-}
-
-void refuse_overflow(double peak) {
-  throw std::overflow_error("integrate: the motion leaves the range of doubles, in displacement (peak " +
-                            shortest(peak) + " m), velocity or energy");
 }
 
 void refuse_restless(double step, const StructureState& state, double demand) {
@@ -260,15 +303,10 @@ double SlidingStructure::demand(const StructureState& state, double ground, doub
 
 StructureResponse integrate(const SlidingStructure& system, const GroundMotion& motion,
                             const StructureIntegrateOptions& options) {
-  using detail::require;
-  for (const auto& [value, name, unit] :
-       {std::tuple(options.displacement, "displacement", "m"), std::tuple(options.velocity, "velocity", "m/s")})
-    require(std::isfinite(value), std::string("integrate: ") + name + " must be finite", value, unit);
-  require(std::isfinite(options.sliding_distance) && options.sliding_distance >= 0,
-          "integrate: sliding_distance must be finite and at least 0", options.sliding_distance, "m");
   StructureResponse response;
-  detail::with_interface_law(system.slider(),
-                             [&](const auto& law) { response = integrate_with(system, law, motion, options); });
+  detail::with_interface_law(system.slider(), [&](const auto& law) {
+    response = detail::integrate_run(StructureRun(system, law, motion, options), {});
+  });
   return response;
 }
 

@@ -2,21 +2,16 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
 
 #include "stickslip/sweep/sweep.hpp"
+#include "sweep/combinations.hpp"
 
 namespace stickslip::detail {
 
-/// What a sweep keeps of a combination.
-struct SweepOutcome {
-  double peak = 0, residual = 0, sliding_distance = 0;  ///< [m]
-  std::uint64_t events = 0;
-  Impacts impacts{};
-};
+using SweepOutcome = SweepOutcomeOf<double, Impacts>;
 
 /// Sliders of a sweep that share a part of the work.
 struct SweepGroup {

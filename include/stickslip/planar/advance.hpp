@@ -74,9 +74,8 @@ inline std::string description(Vector2 v) {
 }
 
 /// Throw if a state cannot be the start of a motion.
-template <IsotropicLaw Law>
-void check_start(const PlanarSlider<Law>& slider, const PlanarState& state, const char* function) {
-  const double gap = slider.mounting().stops.forward(), place = norm(state.displacement);
+inline void check_start(const Mounting& mounting, const PlanarState& state, const char* function) {
+  const double gap = mounting.stops.forward(), place = norm(state.displacement);
   if (place > gap * (1 + 0x1p-48))
     throw std::invalid_argument(std::string(function) + ": the displacement must be within the stop at " +
                                 shortest(gap) + " m, got |r| = " + shortest(place) + " m");
@@ -118,7 +117,7 @@ void advance(const PlanarSlider<Law>& slider, const PlanarLoadSegment& segment, 
         " m/s^2, normal force " + detail::shortest(segment.normal_start) + " to " +
         detail::shortest(segment.normal_end) + " m/s^2, r = " + detail::description(state.displacement) +
         " m, r' = " + detail::description(state.velocity) + " m/s");
-  detail::check_start(slider, state, "advance");
+  detail::check_start(slider.mounting(), state, "advance");
   PlanarState moved = state;
   detail::PlanarObserverSink sink(observer);
   detail::advance_plane(slider, segment, contact, moved, sink);

@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,6 +21,7 @@
 #include "stickslip/planar/state.hpp"
 #include "stickslip/planar/trajectory.hpp"
 #include "stickslip/planar/vector.hpp"
+#include "stickslip/run/reading.hpp"
 #include "stickslip/sliding/floor_motion.hpp"
 #include "stickslip/units.hpp"
 
@@ -141,23 +140,15 @@ class PlanarFloorReader final : public PlanarTrajectoryReader {
   std::optional<Vector2> before_;  // velocity before an impact or a landing
 };
 
-/// @param trace  shows the motion up to a time to a reader, and returns the state there
-template <class Trace>
-PlanarFloorMotion planar_floor(const GroundMotion& motion, double slope, const PlanarResponse& response,
-                               double tolerance, Trace&& trace) {
-  require(tolerance >= 1e-10 && tolerance <= 1, "floor_motion: tolerance must be from 1e-10 to 1", tolerance);
-  if (response.truncated)
-    throw std::invalid_argument(
-        "floor motion: the samples of the response must reach the final rest, but they are truncated; extend the "
-        "ground motion by zeros");
-  const std::size_t samples = response.displacement.size();
-  if (samples < motion.samples() || response.events.empty())
-    throw std::invalid_argument("floor_motion: the response must be that to the motion of " +
-                                std::to_string(motion.samples()) + " samples, got " + std::to_string(samples));
+inline PlanarFloorMotion floor_motion(const PlanarEngine& engine, const GroundMotion& motion,
+                                      const PlanarResponse& response, double tolerance) {
+  check_floor(response, motion.samples(), tolerance);
+  const double slope = engine.mounting().slope(), until = motion.time(response.displacement.size() - 1);
   const auto read = [&](double largest_error) {
     PlanarFloorReader reader(slope > 0 ? standard_gravity * std::sin(slope) : 0, largest_error);
-    const PlanarState end = trace(motion.time(samples - 1), reader);
-    reader.finish(end.velocity);
+    PlanarState state = start_of(response);
+    trace(engine, motion, response, until, reader, state);
+    reader.finish(state.velocity);
     return std::move(reader.floor);
   };
   // A floor that is not accelerated needs no division.
@@ -187,13 +178,7 @@ PlanarFloorMotion planar_floor(const GroundMotion& motion, double slope, const P
 template <IsotropicLaw Law>
 PlanarFloorMotion floor_motion(const PlanarSlider<Law>& slider, const GroundMotion& motion,
                                const PlanarResponse& response, double tolerance = 1e-6) {
-  return detail::planar_floor(
-      motion, slider.slope(), response, tolerance, [&](double until, PlanarTrajectoryReader& reader) {
-        return detail::trace_plane(motion, slider.slope(), response, until, reader,
-                                   [&](const PlanarLoadSegment& segment, PlanarState& state, auto& tracer) {
-                                     detail::advance_plane(slider, segment, response.contact, state, tracer);
-                                   });
-      });
+  return detail::floor_motion(detail::PlanarEngineOf(slider), motion, response, tolerance);
 }
 
 }  // namespace stickslip

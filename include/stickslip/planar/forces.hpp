@@ -52,11 +52,11 @@ struct PlanarForce {
 };
 
 /// The forces in a state under a load and a normal force N.
-template <IsotropicLaw Law>
-PlanarForce force_on(const PlanarSlider<Law>& slider, const PlanarState& state, Vector2 load, double normal) {
+inline PlanarForce force_on(const PlanarEngine& engine, const PlanarState& state, Vector2 load, double normal) {
   const double weight = state.in_flight ? 0 : std::max(normal, 0.0) / standard_gravity;
-  const double pull = slider.mounting().spring().under(weight);
-  PlanarForce force{{}, slider.damping() * state.velocity, pull * state.displacement, weight * standard_gravity};
+  const double pull = engine.mounting().spring().under(weight);
+  PlanarForce force{
+      {}, engine.mounting().damping * state.velocity, pull * state.displacement, weight * standard_gravity};
   const Vector2 q = load - force.spring;
   if (state.mode == PlanarMode::stuck) {
     force.friction = q;
@@ -66,7 +66,7 @@ PlanarForce force_on(const PlanarSlider<Law>& slider, const PlanarState& state, 
   const double speed = norm(state.velocity), size = norm(q);
   const Vector2 direction = speed > 0 ? (1 / speed) * state.velocity : size > 0 ? (1 / size) * q : Vector2{};
   if (weight > 0) {
-    force.friction = (weight * resist_at(slider, state, weight, speed)) * direction;
+    force.friction = (weight * engine.resist(state, weight, speed)) * direction;
   }
   if (state.mode == PlanarMode::along_stop) {
     const double gap = norm(state.displacement);
@@ -165,11 +165,8 @@ inline std::vector<double> acting(const GroundMotion& motion, std::span<const do
   return n;
 }
 
-/// @param move   moves a state over a segment, observed by a PlanarTracer
-/// @param force  of a state under a load and a normal force
-template <class Move, class Force>
-PlanarForces planar_forces(const GroundMotion& motion, double angle, const PlanarResponse& response, Move&& move,
-                           Force&& force) {
+inline PlanarForces forces(const PlanarEngine& engine, const GroundMotion& motion, const PlanarResponse& response) {
+  const double angle = engine.mounting().slope();
   const std::size_t samples = response.displacement.size();
   const std::vector<double> along = acting(motion, motion.acceleration(), samples),
                             up = acting(motion, motion.vertical(), samples),
@@ -186,7 +183,7 @@ PlanarForces planar_forces(const GroundMotion& motion, double angle, const Plana
     bool departs = false;
     between(pieces, motion, angle, from, to, [&](double begin, const PlanarLoadSegment& segment) {
       peak.segment(begin, segment);
-      move(segment, state, tracer);
+      engine.move(segment, response.contact, state, tracer);
       peak.end_of_segment();
       departs = departs || (peak.departs && equal(begin, from));
     });
@@ -199,7 +196,7 @@ PlanarForces planar_forces(const GroundMotion& motion, double angle, const Plana
     if (time < next && go(time, next)) here.mode = PlanarMode::sliding;
     const PlanarSegment ground{0, {along[i], across[i]}, {along[i], across[i]}};
     const PlanarLoadSegment load = load_segment(ground, slope, up[i], up[i]);
-    const PlanarForce now = force(here, load.load_start, load.normal_start);
+    const PlanarForce now = force_on(engine, here, load.load_start, load.normal_start);
     const auto positive = [](Vector2 v) { return v + Vector2{0.0, 0.0}; };  // no minus zero
     result.friction.push_back(positive(now.friction));
     result.damper.push_back(positive(now.damper));
@@ -228,14 +225,7 @@ PlanarForces planar_forces(const GroundMotion& motion, double angle, const Plana
 /// is integrated again: about twice the cost of `integrate`.
 template <IsotropicLaw Law>
 PlanarForces forces(const PlanarSlider<Law>& slider, const GroundMotion& motion, const PlanarResponse& response) {
-  return detail::planar_forces(
-      motion, slider.slope(), response,
-      [&](const PlanarLoadSegment& segment, PlanarState& state, detail::PlanarTracer& tracer) {
-        detail::advance_plane(slider, segment, response.contact, state, tracer);
-      },
-      [&](const PlanarState& state, Vector2 load, double normal) {
-        return detail::force_on(slider, state, load, normal);
-      });
+  return detail::forces(detail::PlanarEngineOf(slider), motion, response);
 }
 
 }  // namespace stickslip

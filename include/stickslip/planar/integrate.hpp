@@ -16,24 +16,17 @@
 #include "stickslip/error.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/planar/advance.hpp"
+#include "stickslip/planar/detail/engine.hpp"
 #include "stickslip/planar/response.hpp"
 #include "stickslip/planar/slider.hpp"
-#include "stickslip/sliding/detail/recorder.hpp"
+#include "stickslip/run/event_log.hpp"
+#include "stickslip/run/options.hpp"
+#include "stickslip/run/run.hpp"
 #include "stickslip/sliding/detail/run.hpp"
 
 namespace stickslip {
 
-struct PlanarIntegrateOptions {
-  Vector2 displacement{};  ///< r at the start [m], finite
-  Vector2 velocity{};      ///< r' at the start [m/s], finite
-  bool settle = false;     ///< continue under zero ground acceleration after the last sample until the slider rests
-  Contact contact = Contact::flight;  ///< what the slider does while the ground falls away from under it
-  std::function<void()> progress{};   ///< called about once per second or more often; may throw to stop the work
-  double sliding_distance = 0;     ///< sliding distance before the start [m], finite and at least 0; used by laws that
-                                   ///< depend on it
-  SurfaceHeat heat{};              ///< of the sliding surface at the start; used by laws that depend on its temperature
-  bool may_end_in_flight = false;  ///< whether a response without `settle` may end before the slider has landed
-};
+using PlanarIntegrateOptions = RunOptions<Vector2>;
 
 namespace detail {
 
@@ -82,61 +75,58 @@ class PlanarPieces {
   Slope slope_;
 };
 
-/// Iterate over the segments of a motion and keep the motion at the samples: `go(i, begin, end, segment)` moves `state`
-/// over a segment, and `report()` is called now and then. A slider that rests on level ground is asked for its next
-/// departure only.
-template <IsotropicLaw Law, class Go, class Report>
-void walk_plane(const PlanarSlider<Law>& slider, const GroundMotion& motion, const PlanarPieces& pieces,
-                const PlanarState& state, std::vector<Vector2>& displacement, std::vector<Vector2>& velocity, Go&& go,
-                Report&& report) {
-  constexpr std::size_t segments_per_report = 4096;
-  const bool scans = !HeatedLaw<Law> && !(slider.slope() > 0) && !motion.has_vertical();
+/// Move a slider through a ground motion and keep its motion at the samples. A slider that rests on level ground is
+/// asked for its next departure only.
+/// @tparam Recorder  a sink that is told where segments begin
+template <class Recorder>
+void walk_plane(const PlanarEngine& engine, const GroundMotion& motion, const PlanarPieces& pieces, Contact contact,
+                PlanarState& state, Recorder& recorder, const HistorySpansOf<Vector2>& histories) {
+  const Mounting& on = engine.mounting();
+  const bool scans = !engine.law().heated && !(on.slope() > 0) && !motion.has_vertical();
   const std::size_t count = motion.segments();
   for (std::size_t i = 0; i < count;) {
-    for (const std::size_t last = std::min(i + segments_per_report, count); i < last;) {
-      if (scans && state.mode == PlanarMode::stuck) {
-        const std::size_t next = pieces.first_outside(i, last, slider.mounting().spring().under(1) * state.displacement,
-                                                      hold_at(slider, state));
-        std::fill(displacement.data() + i + 1, displacement.data() + next + 1, state.displacement);
-        std::fill(velocity.data() + i + 1, velocity.data() + next + 1, Vector2{});
+    for (const std::size_t last = std::min(i + Recorder::work_per_report, count); i < last;) {
+      if (scans && is_stuck(state)) {
+        const std::size_t next =
+            pieces.first_outside(i, last, on.spring().under(1) * state.displacement, engine.hold(state, 1));
+        std::fill(&histories.displacement[i] + 1, &histories.displacement[next] + 1, state.displacement);
+        std::fill(&histories.velocity[i] + 1, &histories.velocity[next] + 1, Vector2{});
         if ((i = next) == last) break;
       }
-      go(i, pieces.time(i), pieces.time(i + 1), pieces.segment(i));
-      displacement[i + 1] = state.displacement;
-      velocity[i + 1] = state.velocity;
-      ++i;
+      recorder.begin_segment(pieces.time(i), pieces.time(i + 1));
+      engine.move(pieces.segment(i++), contact, state, recorder);
+      histories.displacement[i] = state.displacement;
+      histories.velocity[i] = state.velocity;
+      if (!histories.gap.empty()) histories.gap[i] = state.gap;
+      if (!histories.temperature.empty()) histories.temperature[i] = engine.temperature(state);
     }
-    if (i < count) report();
+    if (i < count) recorder.report_progress();
   }
 }
 
 /// Records the events, the peak and the sums of a motion in the plane.
-class PlanarRecorder final : public PlanarSink {
+class PlanarRecorder final : public PlanarSink, public EventLog<Vector2>, public Pace<4096> {
  public:
-  static constexpr std::uint32_t work_per_report = 4096;  // events or flows
-
-  PlanarRecorder(Vector2 from, double start, std::size_t event_limit, const std::function<void()>& progress,
+  /// @param start     r at the start [m]
+  /// @param response  to which the sums are added
+  PlanarRecorder(Vector2 start, std::size_t event_limit, const std::function<void()>& progress,
                  PlanarResponse& response)
-      : response_(response), from_(from), event_limit_(event_limit), progress_(progress) {
-    response_.events.clear();
-    look(norm(from), from, start);
-  }
-
-  void begin_segment(double begin, double end) noexcept {
-    segment_begins_ = begin;
-    segment_ends_ = end;
-  }
-  void report_progress() const {
-    if (progress_) progress_();
+      : EventLog(event_limit, std::move(response.events)), Pace(progress), response_(response) {
+    response_.energy = {};
+    response_.sliding_distance = response_.time_sliding = 0;
+    response_.peak = norm(start);
+    response_.peak_displacement = start;
   }
 
   void follow(const PlanarSlipFlow& flow, double last, double begin) override {
-    if (++work_ % work_per_report == 0) report_progress();
+    count_work();
     const PlanarProgress end = flow.at_parameter(last);
     double where = last;
     if (const double radius = flow.largest_radius(last, response_.peak, where); radius > response_.peak) {
       const PlanarProgress at = flow.at_parameter(where);
-      look(radius, flow.place() + at.way, segment_begins_ + begin + at.time);
+      response_.peak = radius;
+      response_.peak_displacement = flow.place() + at.way;
+      response_.peak_time = segment_begins() + begin + at.time;
     }
     const auto work = flow.work(last);
     response_.energy.input += work.load;
@@ -146,58 +136,115 @@ class PlanarRecorder final : public PlanarSink {
     response_.time_sliding += end.time;
   }
   void event(EventKind kind, double time, const PlanarState& state) override {
-    if (++work_ % work_per_report == 0) report_progress();
-    if (response_.events.size() >= event_limit_) refuse_more_events(event_limit_, segment_begins_ + time);
-    response_.events.push_back(
-        {std::min(segment_begins_ + time, segment_ends_), state.displacement, state.velocity, kind});
+    count_work();
+    add(kind, time, state.displacement, state.velocity);
   }
   void dissipate(double work) override { response_.energy.dissipated += work; }
   void lose(double energy) override { response_.energy.impact += energy; }
 
- private:
-  void look(double radius, Vector2 place, double time) noexcept {
-    response_.peak = radius;
-    response_.peak_displacement = place;
-    response_.peak_time = time;
-  }
+  void finish(PlanarResponse& response) { response.events = take(); }
 
+ private:
   PlanarResponse& response_;
-  double segment_begins_ = 0, segment_ends_ = 0;
-  Vector2 from_;
-  std::size_t event_limit_;
-  std::uint32_t work_ = 0;
-  const std::function<void()>& progress_;
 };
 
-/// As `settle` on one axis: continue without ground acceleration until the slider comes to rest.
-/// @return whether it crept to rest, without an event
-template <IsotropicLaw Law, class Go>
-bool settle(const PlanarSlider<Law>& slider, PlanarState& state, Go&& go) {
-  double longest = 0x1p40;  // [s], about 35,000 years
-  if constexpr (form_of<Law> == Form::constant)
-    if (state.mode != PlanarMode::stuck && !(hold(slider.law(), 0, Direction::forward) > 0)) longest = 0;
-  const double wn = slider.natural_frequency();
-  double scale = wn > 0 ? norm(state.velocity) / wn : 0;  // of the displacement [m]
-  for (double duration = 1; duration <= longest; duration *= 2) {
-    const Vector2 from = state.displacement;
-    const double speed = norm(state.velocity);
-    go(duration);
-    if (state.in_flight) continue;
-    if (state.mode == PlanarMode::stuck) return false;
-    // A damper above the critical one lets a slider creep, too.
-    if (!PositionLaw<Law> || slider.damping() > 0) {
-      scale = std::max(scale, std::max(norm(from), norm(state.displacement)));
-      const bool rests = norm(state.velocity) <= (wn > 0 ? 0x1p-40 * wn * scale : speed / 2);
-      if (rests && norm(state.displacement - from) <= 0x1p-50 * scale) {
-        state.velocity = {};
-        state.mode = PlanarMode::stuck;
-        return true;
-      }
-    }
+/// Records nothing of a motion in the plane; counts its events, and reports progress.
+class NoPlanarRecorder final : public PlanarSink, public Pace<4096> {
+ public:
+  NoPlanarRecorder(std::size_t event_limit, const std::function<void()>& progress)
+      : Pace(progress), events_(event_limit) {}
+
+  void begin_segment(double, double) const noexcept {}
+  void follow(const PlanarSlipFlow&, double, double) override { count_work(); }
+  void event(EventKind, double, const PlanarState&) override {
+    count_work();
+    ++events_;
   }
-  throw ConvergenceError(
-      "without ground motion the slider does not come to rest: at |r| = " + shortest(norm(state.displacement)) +
-      " m it still moves at " + shortest(norm(state.velocity)) + " m/s; use settle = false");
+
+ private:
+  EventCount events_;
+};
+
+/// A slider in the plane under a ground motion, as a run (see RunOfSystem).
+class PlaneRun {
+ public:
+  using State = PlanarState;
+  using Response = PlanarResponse;
+  using Recorder = PlanarRecorder;
+  struct NoSink final : PlanarSink {
+    void follow(const PlanarSlipFlow&, double, double) override {}
+    void event(EventKind, double, const PlanarState&) override {}
+  };
+
+  /// All are held by reference.
+  PlaneRun(const PlanarEngine& engine, const GroundMotion& motion, const PlanarIntegrateOptions& options)
+      : engine_(engine), motion_(motion), options_(options), pieces_(motion, engine.mounting().slope()) {}
+
+  const GroundMotion& motion() const noexcept { return motion_; }
+  const PlanarIntegrateOptions& options() const noexcept { return options_; }
+
+  State start() const {
+    check_start(options_);
+    State state = State::at(options_.displacement, options_.velocity);
+    state.sliding_distance = options_.sliding_distance;
+    state.heat = options_.heat;
+    check_start(engine_.mounting(), state, "integrate");
+    if (flies() && !options_.settle && !options_.may_end_in_flight) check_landing(motion_, engine_.mounting().slope());
+    return state;
+  }
+
+  Recorder recorder(const State& state, Response& response) const {
+    const std::size_t samples = motion_.samples();
+    response.displacement.resize(samples);
+    response.velocity.resize(samples);
+    response.displacement[0] = state.displacement;
+    response.velocity[0] = state.velocity;
+    response.gap.assign(flies() && may_fly(motion_, engine_.mounting().slope()) ? samples : 0, 0);
+    response.temperature.assign(engine_.law().heated ? samples : 0, engine_.temperature(state));
+    response.heat = options_.heat;
+    response.contact = options_.contact;
+    response.components = std::string(name_of(Component::axis)) + " + " + name_of(Component::transverse);
+    if (motion_.has_vertical()) response.components += std::string(" + ") + name_of(Component::vertical);
+    response.peak_time = motion_.time(0);
+    return {state.displacement, max_events(motion_.segments()), options_.progress, response};
+  }
+
+  void walk(State& state, Recorder& recorder, Response& response) const {
+    walk_plane(engine_, motion_, pieces_, options_.contact, state, recorder,
+               {response.displacement, response.velocity, response.gap, response.temperature});
+  }
+
+  double settle(State& state, Recorder& recorder, Response& response) const {
+    return settle_freely(*this, state, recorder, response);
+  }
+  Unrest unrest(const State& state) const { return engine_.unrest(state); }
+  double level(const State& state) const { return engine_.level(state); }
+  void calm(double duration, State& state, PlanarSink& sink) const {
+    engine_.calm(duration, options_.contact, state, sink);
+  }
+  double temperature(const State& state) const { return engine_.temperature(state); }
+
+  double kinetic(const State& state) const { return dot(state.velocity, state.velocity) / 2; }
+  double elastic(const State& state) const {
+    return engine_.mounting().stiffness() * dot(state.displacement, state.displacement) / 2;
+  }
+  void finish(const State& state, Response& response) const {
+    response.residual = state.displacement;
+    response.state = state;
+  }
+
+ private:
+  bool flies() const noexcept { return options_.contact == Contact::flight; }
+
+  const PlanarEngine& engine_;
+  const GroundMotion& motion_;
+  const PlanarIntegrateOptions& options_;
+  PlanarPieces pieces_;
+};
+
+inline PlanarResponse integrate(const PlanarEngine& engine, const GroundMotion& motion,
+                                const PlanarIntegrateOptions& options, PlanarResponse storage) {
+  return integrate_run(PlaneRun(engine, motion, options), std::move(storage));
 }
 
 }  // namespace detail
@@ -222,97 +269,7 @@ bool settle(const PlanarSlider<Law>& slider, PlanarState& state, Go&& go) {
 template <IsotropicLaw Law>
 PlanarResponse integrate(const PlanarSlider<Law>& slider, const GroundMotion& motion,
                          const PlanarIntegrateOptions& options = {}, PlanarResponse storage = {}) {
-  using detail::require;
-  for (const auto& [value, name, unit] :
-       {std::tuple(options.displacement, "displacement", "m"), std::tuple(options.velocity, "velocity", "m/s")})
-    for (const double component : {value.axis, value.transverse})
-      require(std::isfinite(component), std::string("integrate: ") + name + " must be finite", component, unit);
-  require(std::isfinite(options.sliding_distance) && options.sliding_distance >= 0,
-          "integrate: sliding_distance must be finite and at least 0", options.sliding_distance, "m");
-  const detail::PlanarPieces pieces(motion, slider.slope());
-  PlanarState state = PlanarState::at(options.displacement, options.velocity);
-  state.sliding_distance = options.sliding_distance;
-  state.heat = options.heat;
-  detail::check_start(slider, state, "integrate");
-  if (options.contact == Contact::flight && !options.settle && !options.may_end_in_flight)
-    detail::check_landing(motion, slider.slope());
-  const bool flies = options.contact == Contact::flight && detail::may_fly(motion, slider.slope());
-
-  PlanarResponse response = std::move(storage);
-  response.displacement.resize(motion.samples());
-  response.velocity.resize(motion.samples());
-  response.gap.assign(flies ? motion.samples() : 0, 0);
-  response.temperature.clear();
-  if constexpr (HeatedLaw<Law>)
-    response.temperature.resize(motion.samples(), slider.law().temperature(detail::on_path<Law>(state)));
-  response.heat = options.heat;
-  response.energy = {};
-  response.peak = response.sliding_distance = response.time_sliding = 0;
-  const auto kinetic = [&] { return dot(state.velocity, state.velocity) / 2; };
-  const auto elastic = [&] { return slider.stiffness() * dot(state.displacement, state.displacement) / 2; };
-  response.displacement[0] = state.displacement;
-  response.velocity[0] = state.velocity;
-  response.energy.initial = kinetic() + elastic();
-  detail::PlanarRecorder recorder(state.displacement, motion.time(0), detail::max_events(motion.segments()),
-                                  options.progress, response);
-  recorder.begin_segment(motion.time(0), motion.time(0));
-  if (state.mode != PlanarMode::stuck) recorder.event(EventKind::breakaway, 0, state);
-  const auto go = [&](std::size_t i, double begin, double end, const PlanarLoadSegment& segment) {
-    recorder.begin_segment(begin, end);
-    detail::advance_plane(slider, segment, options.contact, state, recorder);
-    if (flies) response.gap[i + 1] = state.gap;
-    if constexpr (HeatedLaw<Law>) response.temperature[i + 1] = slider.law().temperature(detail::on_path<Law>(state));
-  };
-  detail::walk_plane(slider, motion, pieces, state, response.displacement, response.velocity, go,
-                     [&] { recorder.report_progress(); });
-  double end = motion.time(motion.segments());
-  response.contact = options.contact;
-  response.components = std::string(name_of(Component::axis)) + " + " + name_of(Component::transverse);
-  if (motion.has_vertical()) response.components += std::string(" + ") + name_of(Component::vertical);
-  response.truncated = false;
-  if (options.settle) {
-    const detail::Slope slope(slider.slope());
-    const auto at_rest = [&](double duration) { return detail::load_segment(PlanarSegment{duration, {}, {}}, slope); };
-    PlanarState from = state;
-    double time = end;
-    const bool crept = detail::settle(slider, state, [&](double duration) {
-      recorder.begin_segment(time, time + duration);
-      detail::advance_plane(slider, at_rest(duration), options.contact, state, recorder);
-      time += duration;
-    });
-    recorder.begin_segment(time, time);
-    if (crept) recorder.event(EventKind::arrest, 0, state);
-    if (!response.events.empty()) end = std::max(end, response.events.back().time);
-    NoPlanarObserver nobody;
-    detail::PlanarObserverSink none(nobody);
-    for (std::size_t i = motion.segments(); motion.time(i) < end; ++i) {
-      if (i + 1 >= 10 * motion.samples()) {
-        response.truncated = true;
-        break;
-      }
-      detail::advance_plane(slider, at_rest(motion.last_step()), options.contact, from, none);
-      if (!(motion.time(i + 1) < end)) {
-        from.displacement = state.displacement;
-        from.velocity = {};
-        from.mode = PlanarMode::stuck;
-      }
-      response.displacement.push_back(from.displacement);
-      response.velocity.push_back(from.velocity);
-      if (flies) response.gap.push_back(from.gap);
-      if constexpr (HeatedLaw<Law>)
-        response.temperature.push_back(slider.law().temperature(detail::on_path<Law>(from)));
-    }
-  }
-  recorder.begin_segment(end, end);
-  recorder.event(EventKind::end, 0, state);
-  response.residual = state.displacement;
-  response.energy.kinetic = kinetic();
-  response.energy.elastic = elastic();
-  response.state = state;
-  if (!std::isfinite(response.energy.imbalance()) || !std::isfinite(response.peak))
-    throw std::overflow_error("integrate: the motion leaves the range of doubles, in displacement (peak " +
-                              detail::shortest(response.peak) + " m), velocity or energy");
-  return response;
+  return detail::integrate(detail::PlanarEngineOf(slider), motion, options, std::move(storage));
 }
 
 }  // namespace stickslip

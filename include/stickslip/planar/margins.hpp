@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -24,21 +23,15 @@
 namespace stickslip {
 namespace detail {
 
-/// The levels of a law in a state, under a normal force of `weight` times g, divided by the weight [m/s^2].
-struct PlanarLevels {
-  std::function<double(const PlanarState&, double weight)> hold;
-  std::function<double(const PlanarState&, double weight, double speed)> resist;
-};
-
 /// Reads the margins of a motion in the plane.
 class PlanarMarginReader final : public PlanarTrajectoryReader {
  public:
   /// @param state  that of the motion, which is followed
-  PlanarMarginReader(const Mounting& mounting, const PlanarLevels& levels, const PlanarState& state)
-      : mounting_(mounting),
-        levels_(levels),
+  PlanarMarginReader(const PlanarEngine& engine, const PlanarState& state)
+      : engine_(engine),
+        mounting_(engine.mounting()),
         state_(state),
-        gap_(mounting.stops.forward()),
+        gap_(engine.mounting().stops.forward()),
         farthest_(norm(state.displacement)) {}
 
   Margins margins;
@@ -142,7 +135,7 @@ class PlanarMarginReader final : public PlanarTrajectoryReader {
   }
   double held(const PlanarState& at, double time) const {
     const double w = weight(time);
-    return left_of(levels_.hold(at, w), w, norm(net(at.displacement, time, w)));
+    return left_of(engine_.hold(at, w), w, norm(net(at.displacement, time, w)));
   }
 
   /// The time at which the load divided by the level is least on a line; between the ends of a segment there is no
@@ -206,7 +199,7 @@ class PlanarMarginReader final : public PlanarTrajectoryReader {
     if (!forced && arrives_) {
       const double w = weight(time);
       const Vector2 q = net(at.displacement, time, w);
-      const double level = levels_.resist(at, w, 0);
+      const double level = engine_.resist(at, w, 0);
       // The velocity turns into the load before it vanishes, unless it is exactly opposite.
       const double size = norm(q), forward = dot(q, *arrives_);
       const bool opposite = forward <= -(1 - 0x1p-20) * size * norm(*arrives_);
@@ -235,14 +228,14 @@ class PlanarMarginReader final : public PlanarTrajectoryReader {
     const Vector2 outward = (1 / from) * at.displacement;
     const double radial = dot(at.velocity, outward), aside = cross(outward, at.velocity);
     if (!(radial > 0)) return;
-    const double level = at.in_flight ? 0 : w * levels_.resist(at, w, speed);
+    const double level = at.in_flight ? 0 : w * engine_.resist(at, w, speed);
     const double slows =
         level * radial / speed - dot(net(at.displacement, time, w, false), outward) - aside * aside / from;
     if (slows > 0) count_distance(radial * radial / (2 * slows));
   }
 
+  const PlanarEngine& engine_;
   const Mounting& mounting_;
-  const PlanarLevels& levels_;
   const PlanarState& state_;
   double gap_;
   PlanarLoadSegment segment_{};
@@ -257,20 +250,10 @@ class PlanarMarginReader final : public PlanarTrajectoryReader {
   bool outward_ = false;              // whether it grew
 };
 
-/// @param move  moves a state over a segment, observed by a PlanarTracer
-template <class Move>
-Margins planar_margins(const Mounting& mounting, const PlanarLevels& levels, const GroundMotion& motion,
-                       const PlanarResponse& response, Move&& move) {
+inline Margins margins(const PlanarEngine& engine, const GroundMotion& motion, const PlanarResponse& response) {
   PlanarState state = start_of(response);
-  PlanarMarginReader reader(mounting, levels, state);
-  PlanarTracer tracer{reader};
-  const PlanarPieces pieces(motion, mounting.slope());
-  between(pieces, motion, mounting.slope(), motion.time(0), response.events.back().time,
-          [&](double begin, const PlanarLoadSegment& segment) {
-            reader.segment(begin, segment);
-            move(segment, state, tracer);
-            reader.end_of_segment();
-          });
+  PlanarMarginReader reader(engine, state);
+  trace(engine, motion, response, response.events.back().time, reader, state);
   reader.finish();
   return reader.margins;
 }
@@ -287,15 +270,7 @@ Margins planar_margins(const Mounting& mounting, const PlanarLevels& levels, con
 /// along one line the margins below 1 are those on one axis. Cost: about that of `integrate`.
 template <IsotropicLaw Law>
 Margins margins(const PlanarSlider<Law>& slider, const GroundMotion& motion, const PlanarResponse& response) {
-  const detail::PlanarLevels levels{
-      [&](const PlanarState& state, double weight) { return detail::hold_at(slider, state, weight); },
-      [&](const PlanarState& state, double weight, double speed) {
-        return detail::resist_at(slider, state, weight, speed);
-      }};
-  return detail::planar_margins(slider.mounting(), levels, motion, response,
-                                [&](const PlanarLoadSegment& segment, PlanarState& state, auto& tracer) {
-                                  detail::advance_plane(slider, segment, response.contact, state, tracer);
-                                });
+  return detail::margins(detail::PlanarEngineOf(slider), motion, response);
 }
 
 }  // namespace stickslip

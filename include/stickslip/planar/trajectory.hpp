@@ -3,18 +3,17 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <span>
 #include <vector>
 
 #include "stickslip/base/equal.hpp"
 #include "stickslip/base/min_max.hpp"
-#include "stickslip/error.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/planar/integrate.hpp"
 #include "stickslip/planar/response.hpp"
 #include "stickslip/planar/slider.hpp"
 #include "stickslip/planar/state.hpp"
+#include "stickslip/run/reading.hpp"
 #include "stickslip/sliding/trajectory.hpp"
 
 namespace stickslip {
@@ -107,43 +106,33 @@ void between(const PlanarPieces& pieces, const GroundMotion& motion, double slop
 }
 
 /// Show a motion to a reader, from its beginning to a time.
-/// @param move  moves a state over a segment, observed by a PlanarTracer
-/// @return the state at that time
-template <class Move>
-PlanarState trace_plane(const GroundMotion& motion, double slope, const PlanarResponse& response, double until,
-                        PlanarTrajectoryReader& reader, Move&& move) {
-  PlanarState state = start_of(response);
+/// @param state  at its beginning; moves with it
+inline void trace(const PlanarEngine& engine, const GroundMotion& motion, const PlanarResponse& response, double until,
+                  PlanarTrajectoryReader& reader, PlanarState& state) {
   PlanarTracer tracer(reader);
+  const double slope = engine.mounting().slope();
   const PlanarPieces pieces(motion, slope);
   between(pieces, motion, slope, motion.time(0), until, [&](double begin, const PlanarLoadSegment& segment) {
     reader.segment(begin, segment);
-    move(segment, state, tracer);
+    engine.move(segment, response.contact, state, tracer);
     reader.end_of_segment();
   });
-  return state;
 }
 
-/// @param move  moves a state over a segment
-template <class Move>
-std::vector<PlanarState> planar_states(const GroundMotion& motion, double slope, const PlanarResponse& response,
-                                       std::span<const double> times, Move&& move) {
+inline std::vector<PlanarState> states_at(const PlanarEngine& engine, const GroundMotion& motion,
+                                          const PlanarResponse& response, std::span<const double> times) {
   const double begin = motion.time(0), end = response.events.back().time;
-  for (const double time : times)
-    require(time >= begin && time <= end,
-            "states at times: must be from " + shortest(begin) + " to " + shortest(end) +
-                " s, the start and the end of the response",
-            time, "s");
-  std::vector<std::size_t> order(times.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) { return times[i] < times[k]; });
+  const std::vector<std::size_t> order = order_of(times, begin, end);
+  const double slope = engine.mounting().slope();
   const PlanarPieces pieces(motion, slope);
   std::vector<PlanarState> states(times.size());
+  PlaneRun::NoSink none;
   PlanarState state = start_of(response);
   double now = begin;
   for (const std::size_t i : order) {
     if (now < times[i])
       between(pieces, motion, slope, now, times[i],
-              [&](double, const PlanarLoadSegment& segment) { move(segment, state); });
+              [&](double, const PlanarLoadSegment& segment) { engine.move(segment, response.contact, state, none); });
     now = times[i];
     states[i] = now < end ? state : response.state;
   }
@@ -165,10 +154,7 @@ std::vector<PlanarState> planar_states(const GroundMotion& motion, double slope,
 template <IsotropicLaw Law>
 std::vector<PlanarState> states_at(const PlanarSlider<Law>& slider, const GroundMotion& motion,
                                    const PlanarResponse& response, std::span<const double> times) {
-  return detail::planar_states(motion, slider.slope(), response, times,
-                               [&](const PlanarLoadSegment& segment, PlanarState& state) {
-                                 advance(slider, segment, state, NoPlanarObserver{}, response.contact);
-                               });
+  return detail::states_at(detail::PlanarEngineOf(slider), motion, response, times);
 }
 
 }  // namespace stickslip

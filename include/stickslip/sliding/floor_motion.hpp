@@ -6,8 +6,6 @@
 #include <limits>
 #include <numeric>
 #include <optional>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,6 +15,7 @@
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/ground/response_spectrum.hpp"
 #include "stickslip/ground/segment.hpp"
+#include "stickslip/run/reading.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/sliding/trajectory.hpp"
 #include "stickslip/state.hpp"
@@ -145,17 +144,9 @@ class FloorReader final : public TrajectoryReader {
 /// pseudo-acceleration of damping ratio z by at most e coth(pi z / (2 sqrt(1 - z^2))): 12.7 e at 5 %. Cost: about twice
 /// that of `integrate`, and 30 ns per segment.
 inline FloorMotion floor_motion(const Trajectory& trajectory, double tolerance = 1e-6) {
-  detail::require(tolerance >= 1e-10 && tolerance <= 1, "floor_motion: tolerance must be from 1e-10 to 1", tolerance);
   const Response& response = trajectory.response();
-  if (response.truncated)
-    throw std::invalid_argument(
-        "floor motion: the samples of the response must reach the final rest, but they are truncated; extend the "
-        "ground motion by zeros");
-  const std::size_t samples = response.displacement.size();
-  if (samples < trajectory.samples() || response.events.empty())
-    throw std::invalid_argument("floor_motion: the response must be that to the motion of " +
-                                std::to_string(trajectory.samples()) + " samples, got " + std::to_string(samples));
-  const double until = trajectory.time(samples - 1), downhill = trajectory.downhill();
+  detail::check_floor(response, trajectory.samples(), tolerance);
+  const double until = trajectory.time(response.displacement.size() - 1), downhill = trajectory.downhill();
   detail::FloorRange whole(downhill);
   trajectory.read(whole, until);
   // A floor that is not accelerated needs no division.

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
-#include <stdexcept>
+#include <string>
 #include <utility>
 
-#include "stickslip/base/function.hpp"
-#include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/ground/motion.hpp"
+#include "stickslip/run/options.hpp"
+#include "stickslip/run/run.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/advance.hpp"
 #include "stickslip/sliding/detail/engine.hpp"
@@ -21,176 +21,120 @@
 
 namespace stickslip {
 
-struct IntegrateOptions {
-  double displacement = 0;  ///< x at the start [m], finite
-  double velocity = 0;      ///< x' at the start [m/s], finite
-  bool settle = false;      ///< continue under zero ground acceleration after the last sample until the slider rests
-  Contact contact = Contact::flight;  ///< what the slider does while the ground falls away from under it
-  std::function<void()> progress{};   ///< called about once per second or more often; may throw to stop the work
-  double sliding_distance = 0;     ///< sliding distance before the start [m], finite and at least 0; used by laws that
-                                   ///< depend on it
-  SurfaceHeat heat{};              ///< of the sliding surface at the start; used by laws that depend on its temperature
-  bool may_end_in_flight = false;  ///< whether a response without `settle` may end before the slider has landed
-};
+using IntegrateOptions = RunOptions<double>;
 
 namespace detail {
 
-/// Continue without ground acceleration until the slider comes to rest; `go(duration)` integrates its motion. Where
-/// friction grows with the speed, a slider may creep: its speed decays exponentially and never reaches zero, on a
-/// spring or where friction vanishes at rest. It is at rest when x no longer changes, but by round-off, and its speed
-/// is negligible beside the spring or, without one, has at least halved meanwhile.
-/// @return whether it crept to rest, without an event
-template <class Go>
-bool settle(const Engine& engine, State& state, Go&& go) {
-  double longest = 0x1p40;  // [s], about 35,000 years
-  if (engine.law().constant) {
-    const auto holds = [&](Direction direction) { return engine.hold(state, 1, direction) > 0; };
-    if (!holds(Direction::forward) && !holds(Direction::backward) && state.mode != Mode::stuck) longest = 0;
-  }
-  const double wn = engine.mounting().natural_frequency;
-  double scale = wn > 0 ? std::abs(state.velocity) / wn : 0;  // of the displacement [m]
-  for (double duration = 1; duration <= longest; duration *= 2) {
-    const double from = state.displacement, speed = std::abs(state.velocity);
-    go(duration);
-    if (state.in_flight) continue;
-    if (state.mode == Mode::stuck) return false;
-    if (engine.law().position) continue;
-    scale = std::max(scale, std::max(std::abs(from), std::abs(state.displacement)));
-    const bool rests = std::abs(state.velocity) <= (wn > 0 ? 0x1p-40 * wn * scale : speed / 2);
-    if (rests && std::abs(state.displacement - from) <= 0x1p-50 * scale) {
-      state.velocity = 0;
-      state.mode = Mode::stuck;
-      return true;
-    }
-  }
-  throw ConvergenceError(
-      "without ground motion the slider does not come to rest: at x = " + shortest(state.displacement) +
-      " m it still moves at " + shortest(state.velocity) + " m/s, with a slip level of " +
-      shortest(engine.resist(state, 1, direction_of(state.mode))) + " m/s^2 there; use settle = false");
-}
+/// A slider of any law on one axis under a ground motion, as a run.
+template <Motion M>
+class AxisRun {
+ public:
+  using State = stickslip::State;
+  using Response = stickslip::Response;
+  using Recorder = detail::Recorder;
+  using NoSink = detail::NoSink;
 
-/// Append samples from the end of a motion up to the first at or after the final rest, but at most nine times as many
-/// as the motion has.
-/// @param move  `move(segment, state)` integrates the motion over a segment
-/// @param from  the state at the end of the motion
-/// @param rest  time of the final rest [s], at `residual` [m]
-/// @return whether the samples reach the final rest
-template <Motion M, class Move>
-bool add_samples(const Engine& engine, const M& motion, Move&& move, State from, double rest, double residual,
-                 Response& response) {
-  const Segment step{motion.last_step(), 0, 0};
-  for (std::size_t i = motion.segments(); motion.time(i) < rest; ++i) {
-    if (i + 1 >= 10 * motion.samples()) return false;
-    move(step, from);
-    if (!(motion.time(i + 1) < rest)) {
-      from.displacement = residual;
-      from.velocity = 0;
-      from.mode = Mode::stuck;
-    }
-    response.displacement.push_back(from.displacement);
-    response.velocity.push_back(from.velocity);
-    if (!response.gap.empty()) response.gap.push_back(from.gap);
-    if (engine.law().heated) response.temperature.push_back(engine.temperature(from));
+  /// All are held by reference.
+  /// @param in_order  segment by segment, as the header-only core does
+  AxisRun(const Engine& engine, const M& motion, const IntegrateOptions& options, bool in_order)
+      : engine_(engine), motion_(motion), options_(options), in_order_(in_order) {
+    if constexpr (std::same_as<M, GroundMotion>)
+      loaded_ = engine.loaded(motion);
+    else
+      require_plain_mounting(engine.mounting(), "integrate under a HarmonicMotion");
   }
-  return true;
-}
+
+  const M& motion() const noexcept { return motion_; }
+  const IntegrateOptions& options() const noexcept { return options_; }
+
+  State start() const {
+    if constexpr (std::same_as<M, GroundMotion>) {
+      if (loaded_) {
+        check_start(engine_.mounting(), State::at(options_.displacement, options_.velocity), "integrate");
+        if (flies() && !options_.settle && !options_.may_end_in_flight)
+          check_landing(motion_, engine_.mounting().slope());
+      }
+    }
+    check_start(options_);
+    State state = State::at(options_.displacement, options_.velocity);
+    state.sliding_distance = options_.sliding_distance;
+    state.heat = options_.heat;
+    state = engine_.started(state);
+    if (!is_stuck(state))
+      require(std::isfinite(engine_.resist(state, 1, direction_of(state.mode))),
+              "integrate: velocity must not point where the slip level is infinite", options_.velocity, "m/s");
+    return state;
+  }
+
+  Recorder recorder(const State& state, Response& response) const {
+    const std::size_t samples = motion_.samples();
+    response.displacement.resize(samples);
+    response.velocity.resize(samples);
+    response.displacement[0] = state.displacement;
+    response.velocity[0] = state.velocity;
+    response.gap.clear();
+    response.temperature.clear();
+    if (engine_.law().heated) response.temperature.resize(samples, engine_.temperature(state));
+    response.contact = options_.contact;
+    response.components = name_of(Component::axis);  // a transverse component never acts
+    if constexpr (std::same_as<M, GroundMotion>) {
+      if (loaded_ && flies() && may_fly(motion_, engine_.mounting().slope())) response.gap.assign(samples, 0);
+      if (motion_.has_vertical()) response.components += std::string(" + ") + name_of(Component::vertical);
+    }
+    return {engine_,
+            loaded_,
+            state.displacement,
+            max_events(pieces(motion_)),
+            options_.progress,
+            std::move(response.events)};
+  }
+
+  void walk(State& state, Recorder& recorder, Response& response) const {
+    const HistorySpans histories{{response.displacement, response.velocity, response.gap, response.temperature}};
+    if constexpr (std::same_as<M, GroundMotion>) {
+      if (loaded_)
+        run_loaded(engine_, motion_, options_.contact, state, recorder, histories);
+      else
+        run(engine_, motion_, in_order_, state, recorder, histories);
+    } else {
+      HarmonicSegments segments(motion_, engine_, recorder, histories);
+      engine_.move(segments, motion_.omega(), motion_.dt(), state, recorder);
+    }
+  }
+
+  double settle(State& state, Recorder& recorder, Response& response) const {
+    return settle_freely(*this, state, recorder, response);
+  }
+  Unrest unrest(const State& state) const { return unrest_of(engine_, state); }
+  double level(const State& state) const { return engine_.resist(state, 1, direction_of(state.mode)); }
+  void calm(double duration, State& state, Sink& sink) const {
+    advance(engine_, Segment{duration, 0, 0}, loaded_, options_.contact, state, sink);
+  }
+  double temperature(const State& state) const { return engine_.temperature(state); }
+
+  double kinetic(const State& state) const { return state.velocity * state.velocity / 2; }
+  double elastic(const State& state) const {
+    return engine_.mounting().stiffness() * state.displacement * state.displacement / 2 + engine_.elastic(state);
+  }
+  void finish(const State& state, Response& response) const {
+    response.residual = state.displacement;
+    response.state = state;
+  }
+
+ private:
+  bool flies() const noexcept { return options_.contact == Contact::flight; }
+
+  const Engine& engine_;
+  const M& motion_;
+  const IntegrateOptions& options_;
+  bool in_order_, loaded_ = false;
+};
 
 /// `integrate` of a slider of any law.
-/// @param in_order  segment by segment, as the header-only core does
 template <Motion M>
 Response integrate(const Engine& engine, const M& motion, const IntegrateOptions& options, Response storage,
                    bool in_order) {
-  const Mounting& mounting = engine.mounting();
-  bool loaded = false;
-  storage.gap.clear();
-  if constexpr (std::same_as<M, GroundMotion>) {
-    loaded = engine.loaded(motion);
-    if (loaded) {
-      check_start(mounting, State::at(options.displacement, options.velocity), "integrate");
-      if (options.contact == Contact::flight && !options.settle && !options.may_end_in_flight)
-        check_landing(motion, mounting.slope());
-      if (may_fly(motion, mounting.slope()) && options.contact == Contact::flight)
-        storage.gap.assign(motion.samples(), 0);
-    }
-  } else {
-    require_plain_mounting(mounting, "integrate under a HarmonicMotion");
-  }
-  require(std::isfinite(options.displacement), "integrate: displacement must be finite", options.displacement, "m");
-  require(std::isfinite(options.velocity), "integrate: velocity must be finite", options.velocity, "m/s");
-  require(std::isfinite(options.sliding_distance) && options.sliding_distance >= 0,
-          "integrate: sliding_distance must be finite and at least 0", options.sliding_distance, "m");
-  State state = State::at(options.displacement, options.velocity);
-  state.sliding_distance = options.sliding_distance;
-  state.heat = options.heat;
-  state = engine.started(state);
-  if (state.mode != Mode::stuck)
-    require(std::isfinite(engine.resist(state, 1, direction_of(state.mode))),
-            "integrate: velocity must not point where the slip level is infinite", options.velocity, "m/s");
-
-  Response response = std::move(storage);
-  response.displacement.resize(motion.samples());
-  response.velocity.resize(motion.samples());
-  const auto kinetic = [&] { return state.velocity * state.velocity / 2; };
-  const auto elastic = [&] {
-    return mounting.stiffness() * state.displacement * state.displacement / 2 + engine.elastic(state);
-  };
-
-  response.temperature.clear();
-  if (engine.law().heated) response.temperature.resize(motion.samples(), engine.temperature(state));
-  response.displacement[0] = state.displacement;
-  response.velocity[0] = state.velocity;
-  const double initial = kinetic() + elastic();
-  Recorder recorder(engine, loaded, state.displacement, max_events(pieces(motion)), options.progress,
-                    std::move(response.events));
-  recorder.begin_segment(motion.time(0), motion.time(0));
-  if (state.mode != Mode::stuck) recorder.event(EventKind::breakaway, 0, state);
-  double end = motion.time(motion.segments());
-  const HistorySpans histories{response.displacement, response.velocity, response.gap, response.temperature};
-  if constexpr (std::same_as<M, GroundMotion>) {
-    if (loaded)
-      run_loaded(engine, motion, options.contact, state, recorder, histories);
-    else
-      run(engine, motion, in_order, state, recorder, histories);
-  } else {
-    HarmonicSegments segments(motion, engine, recorder, histories);
-    engine.move(segments, motion.omega(), motion.dt(), state, recorder);
-  }
-  response.truncated = false;
-  response.contact = options.contact;
-  response.components = name_of(Component::axis);  // a transverse component never acts
-  if constexpr (std::same_as<M, GroundMotion>)
-    if (motion.has_vertical()) response.components += std::string(" + ") + name_of(Component::vertical);
-  if (options.settle) {
-    const auto move = [&](const Segment& segment, State& moving, Sink& sink) {
-      advance(engine, segment, loaded, options.contact, moving, sink);
-    };
-    const State at_end = state;
-    double time = end;
-    const bool crept = settle(engine, state, [&](double duration) {
-      recorder.begin_segment(time, time + duration);
-      move(Segment{duration, 0, 0}, state, recorder);
-      time += duration;
-    });
-    if (crept) {
-      recorder.begin_segment(time, time);
-      recorder.event(EventKind::arrest, 0, state);
-    }
-    end = std::max(end, recorder.last_event());
-    NoSink none;
-    const auto step = [&](const Segment& segment, State& from) { move(segment, from, none); };
-    response.truncated = !add_samples(engine, motion, step, at_end, end, state.displacement, response);
-  }
-  recorder.finish(end, state, response);
-
-  response.residual = state.displacement;
-  response.energy.initial = initial;
-  response.energy.kinetic = kinetic();
-  response.energy.elastic = elastic();
-  response.state = state;
-  if (!std::isfinite(response.energy.imbalance()) || !std::isfinite(response.peak))
-    throw std::overflow_error("integrate: the motion leaves the range of doubles, in displacement (peak " +
-                              shortest(response.peak) + " m), velocity or energy");
-  return response;
+  return integrate_run(AxisRun(engine, motion, options, in_order), std::move(storage));
 }
 
 /// `integrate` by the event loop, segment by segment, as the header-only core does.

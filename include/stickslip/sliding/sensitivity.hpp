@@ -420,7 +420,7 @@ Sensitivity sensitivity(const Slider<Law>& slider, const GroundMotion& motion, c
     State state = engine.started(State::at(response.displacement.front(), response.velocity.front()));
     detail::VariationalMotion<Law> variation(slider, motion, change, friction, state);
     std::vector<double> x(motion.samples()), v(motion.samples());
-    const detail::HistorySpans spans{x, v};
+    const detail::HistorySpans spans{{x, v}};
     detail::run_loaded(engine, motion, response.contact, state, variation, spans);
     if (response.events.back().time > motion.time(motion.segments()))
       detail::settle(engine, state, [&](double duration) {

@@ -6,7 +6,6 @@
 #include <concepts>
 #include <cstddef>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <vector>
@@ -18,6 +17,7 @@
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/ground/segment.hpp"
+#include "stickslip/run/reading.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/detail/engine.hpp"
 #include "stickslip/sliding/detail/engine_of.hpp"
@@ -447,18 +447,10 @@ class StatesAt final : public TrajectoryReader {
 /// @throws std::invalid_argument  a time before the start or after the end
 /// As exact as `integrate`. Cost: about that of `integrate`, and 0.1 us for each time.
 inline std::vector<State> states_at(const Trajectory& trajectory, std::span<const double> times) {
-  const double begin = trajectory.begin(), end = trajectory.end();
-  for (const double time : times)
-    detail::require(time >= begin && time <= end,
-                    "states at times: must be from " + detail::shortest(begin) + " to " + detail::shortest(end) +
-                        " s, the start and the end of the response",
-                    time, "s");
+  const std::vector<std::size_t> order = detail::order_of(times, trajectory.begin(), trajectory.end());
   if (times.empty()) return {};
-  std::vector<std::size_t> order(times.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) { return times[i] < times[k]; });
   detail::StatesAt reader(times, order);
-  trajectory.read(reader, std::min(std::nextafter(times[order.back()], never), end));
+  trajectory.read(reader, std::min(std::nextafter(times[order.back()], never), trajectory.end()));
   reader.finish(trajectory.response().state);
   return std::move(reader.states);
 }

@@ -21,25 +21,8 @@
 
 namespace stickslip {
 
-/// The results of a sweep in the plane: arrays over [slider, record, polarity], with the last index varying fastest.
-/// NaN for a failed combination.
-struct PlanarSweepTable {
-  std::size_t sliders = 0, records = 0, polarities = 0;
-  Polarity polarity = Polarity::both;
-  std::vector<double> peak;              ///< largest |r| over all time [m]
-  std::vector<Vector2> residual;         ///< r at the end [m]; final if the slider rests
-  std::vector<double> sliding_distance;  ///< path length [m]
-  std::vector<std::uint64_t> events;     ///< breakaways, impacts, arrests; 0 for a failure
-  std::vector<SideImpacts> impacts;      ///< on circular stops, with radial speeds; empty if no slider has any
-  std::vector<std::uint8_t> airborne;    ///< whether the slider is in flight at the end
-  std::vector<SweepFailure> failures;    ///< in order of slider, record and polarity
-
-  /// The position of a combination in the arrays.
-  /// @param p  0 or, with both polarities, 1 for the reversed one
-  std::size_t at(std::size_t slider, std::size_t record, std::size_t p = 0) const noexcept {
-    return (slider * records + record) * polarities + p;
-  }
-};
+/// The results of a sweep in the plane. Impacts are those on circular stops, with radial speeds.
+using PlanarSweepTable = SweepTableOf<Vector2, SideImpacts>;
 
 namespace detail {
 

@@ -47,14 +47,17 @@ struct SweepFailure {
 
 /// The results of a sweep: arrays over [slider, record, polarity], with the last index varying fastest. NaN for a
 /// failed combination.
-struct SweepTable {
+/// @tparam Place  a number x on one axis, a Vector2 r in the plane
+/// @tparam Hits   impacts on stops
+template <class Place, class Hits>
+struct SweepTableOf {
   std::size_t sliders = 0, records = 0, polarities = 0;
   Polarity polarity = Polarity::both;
-  std::vector<double> peak;              ///< largest |x| over all time [m]
-  std::vector<double> residual;          ///< x at the end [m]; final if the slider rests
-  std::vector<double> sliding_distance;  ///< path length in both directions [m]
-  std::vector<std::uint64_t> events;     ///< breakaways, reversals and arrests; 0 for a failure
-  std::vector<Impacts> impacts;          ///< on stops; empty if no slider has any
+  std::vector<double> peak;              ///< largest distance from the origin over all time [m]
+  std::vector<Place> residual;           ///< displacement at the end [m]; final if the slider rests
+  std::vector<double> sliding_distance;  ///< path length, on one axis in both directions [m]
+  std::vector<std::uint64_t> events;     ///< breakaways, reversals, impacts and arrests; 0 for a failure
+  std::vector<Hits> impacts;             ///< on stops; empty if no slider has any
   std::vector<std::uint8_t> airborne;    ///< whether the slider is in flight at the end
   std::vector<SweepFailure> failures;    ///< in order of slider, record and polarity
 
@@ -64,6 +67,7 @@ struct SweepTable {
     return (slider * records + record) * polarities + p;
   }
 };
+using SweepTable = SweepTableOf<double, Impacts>;
 
 namespace detail {
 

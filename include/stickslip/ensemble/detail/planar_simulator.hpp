@@ -33,64 +33,52 @@ struct PlanarMemberPlace {
   }
 };
 
-/// Computes the largest |r| and the impacts of a member, and checks regularly whether the run was stopped.
-class PlanarPeakObserver final : public PlanarSink {
+/// Keeps the impacts on the circular stop as impacts forward; their speed is the radial velocity.
+class PlanarPeakObserver final : public PlanarSink, public MemberTally {
  public:
-  PlanarPeakObserver(const Block& block, std::size_t event_limit) : block_(block), event_limit_(event_limit) {}
-
-  double peak() const noexcept { return peak_; }
-  /// Those on the circular stop, as impacts forward; their speed is the radial velocity.
-  const Impacts& impacts() const noexcept { return impacts_; }
+  using MemberTally::MemberTally;
 
   void follow(const PlanarSlipFlow& flow, double last, double) override {
     count_work();
     double where = last;
-    peak_ = std::max(peak_, flow.largest_radius(last, peak_, where));
+    reach(flow.largest_radius(last, peak(), where));
   }
   void event(EventKind kind, double, const PlanarState& state) override {
-    if (kind == EventKind::impact) {
-      const double radius = norm(state.displacement);
-      impacts_.add(radius, dot(state.displacement, state.velocity) / radius);
-    }
-    count_work();
-    if (++events_ > event_limit_) refuse_more_events(event_limit_);
+    const double radius = norm(state.displacement);
+    count_event(kind, radius, radius > 0 ? dot(state.displacement, state.velocity) / radius : 0);
   }
-
- private:
-  void count_work() {
-    if (++work_ % PlanarRecorder::work_per_report == 0) block_.check_stopped();
-  }
-  const Block& block_;
-  std::size_t event_limit_, events_ = 0;
-  std::uint32_t work_ = 0;
-  double peak_ = 0;
-  Impacts impacts_;
 };
 
 /// Simulate one member from rest at r = 0, by the event loop of `advance`. A member may end in flight.
 /// @param settle  whether to continue without ground acceleration until it comes to rest
 /// @throws std::invalid_argument  the ground motion has no transverse component
+inline void simulate_member(const PlanarEngine& engine, const GroundMotion& motion, bool settle, Contact contact,
+                            const PlanarMemberPlace& place) {
+  Block& block = place.block();
+  const PlanarPieces pieces(motion, engine.mounting().slope());
+  PlanarState state;
+  PlanarPeakObserver observer(block, max_events(motion.segments() + block.times().count));
+  const auto go = [&](const PlanarLoadSegment& segment) { engine.move(segment, contact, state, observer); };
+  go_through(pieces, motion.segments(), block, go, [&](std::size_t time) { place.keep(time, state); });
+  if (settle)
+    detail::settle(
+        engine.unrest(state), state,
+        [&](double duration) {
+          block.check_stopped();
+          engine.calm(duration, contact, state, observer);
+        },
+        [&] { return engine.level(state); });
+  place.end(observer.peak(), state.displacement);
+  constexpr double none = std::numeric_limits<double>::infinity();
+  if (const Stops& stops = engine.mounting().stops)
+    block.impacts(place.axis.index, {stops.forward(), none}, observer.impacts());
+  if (state.in_flight) block.ends_airborne();
+}
+
 template <IsotropicLaw Law>
 void simulate_member(const PlanarSlider<Law>& slider, const GroundMotion& motion, bool settle, Contact contact,
                      const PlanarMemberPlace& place) {
-  Block& block = place.block();
-  const PlanarPieces pieces(motion, slider.slope());
-  PlanarState state;
-  PlanarPeakObserver observer(block, max_events(motion.segments() + block.times().count));
-  const auto go = [&](const PlanarLoadSegment& segment) { advance_plane(slider, segment, contact, state, observer); };
-  go_through(pieces, motion.segments(), block, go, [&](std::size_t time) { place.keep(time, state); });
-  if (settle) {
-    const Slope slope(slider.slope());
-    detail::settle(slider, state, [&](double duration) {
-      block.check_stopped();
-      go(load_segment(PlanarSegment{duration, {}, {}}, slope));
-    });
-  }
-  place.end(observer.peak(), state.displacement);
-  constexpr double none = std::numeric_limits<double>::infinity();
-  if (const Stops& stops = slider.mounting().stops)
-    block.impacts(place.axis.index, {stops.forward(), none}, observer.impacts());
-  if (state.in_flight) block.ends_airborne();
+  simulate_member(PlanarEngineOf(slider), motion, settle, contact, place);
 }
 
 /// The same for a slider of any law, compiled in the library.

@@ -168,33 +168,45 @@ inline void accelerations(const GroundMotion& motion, const EnsembleTimes& times
   walk(motion, motion.segments(), read_off, [] {});
 }
 
-/// Computes the largest |x| and the impacts of a member, and checks regularly whether the run was stopped.
-class PeakObserver final : public Sink {
+/// What is kept of a member of any kind while it moves: its peak and its impacts. Checks regularly whether the run was
+/// stopped.
+class MemberTally {
  public:
-  PeakObserver(const Block& block, std::size_t event_limit) : block_(block), event_limit_(event_limit) {}
+  MemberTally(const Block& block, std::size_t event_limit) : block_(block), events_(event_limit) {}
 
   double peak() const noexcept { return peak_; }
   const Impacts& impacts() const noexcept { return impacts_; }
 
-  void slide(const Slip& slip, const SlipFlow&) override {
-    count_work();
-    peak_ = std::max(peak_, std::abs(slip.to()));
-  }
-  void event(EventKind kind, double, const State& state) override {
-    if (kind == EventKind::impact) impacts_.add(state.displacement, state.velocity);
-    count_work();
-    if (++events_ > event_limit_) refuse_more_events(event_limit_);
-  }
-
- private:
+  void reach(double distance) noexcept { peak_ = std::max(peak_, distance); }
   void count_work() {
     if (++work_ % Recorder::work_per_report == 0) block_.check_stopped();
   }
+  /// @param place, velocity  of an impact: those along the outward direction
+  void count_event(EventKind kind, double place, double velocity) {
+    if (kind == EventKind::impact) impacts_.add(place, velocity);
+    count_work();
+    ++events_;
+  }
+
+ private:
   const Block& block_;
-  std::size_t event_limit_, events_ = 0;
+  EventCount events_;
   std::uint32_t work_ = 0;
   double peak_ = 0;
   Impacts impacts_;
+};
+
+class PeakObserver final : public Sink, public MemberTally {
+ public:
+  using MemberTally::MemberTally;
+
+  void slide(const Slip& slip, const SlipFlow&) override {
+    count_work();
+    reach(std::abs(slip.to()));
+  }
+  void event(EventKind kind, double, const State& state) override {
+    count_event(kind, state.displacement, state.velocity);
+  }
 };
 
 /// Continue a member without ground acceleration until it comes to rest.

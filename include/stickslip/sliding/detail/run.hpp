@@ -4,13 +4,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <utility>
 
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/ground/segment.hpp"
+#include "stickslip/run/run.hpp"
 #include "stickslip/sliding/detail/engine.hpp"
 #include "stickslip/sliding/detail/sink.hpp"
 #include "stickslip/state.hpp"
@@ -21,11 +21,7 @@
 namespace stickslip::detail {
 
 /// Where the response at the samples is written.
-struct HistorySpans {
-  std::span<double> displacement, velocity;
-  std::span<double> gap{};          // empty if the slider cannot leave the ground
-  std::span<double> temperature{};  // empty if friction does not depend on it
-
+struct HistorySpans : HistorySpansOf<double> {
   void keep(std::size_t sample, const BareState& state) const noexcept {
     displacement[sample] = state.displacement;
     velocity[sample] = state.velocity;
@@ -166,6 +162,19 @@ class HarmonicSegments final : public Segments<HarmonicSegment> {
   double time_, end_;         // where the next segment begins, and the next sample [s]
   std::uint32_t pieces_ = 0;  // given
 };
+
+/// What can keep a slider of any law from rest.
+inline Unrest unrest_of(const Engine& engine, const State& state) {
+  const auto holds = [&](Direction direction) { return engine.hold(state, 1, direction) > 0; };
+  return {engine.mounting().natural_frequency,
+          engine.law().constant && !is_stuck(state) && !holds(Direction::forward) && !holds(Direction::backward),
+          !engine.law().position};
+}
+/// Continue without ground acceleration until it comes to rest; see `settle` of run.hpp.
+template <class Go>
+bool settle(const Engine& engine, State& state, Go&& go) {
+  return settle(unrest_of(engine, state), state, go, [&] { return engine.resist(state, 1, direction_of(state.mode)); });
+}
 
 /// Whether the normal force is negative anywhere.
 inline bool may_fly(const GroundMotion& motion, double slope) noexcept {
