@@ -1,0 +1,63 @@
+// The response of a block that rocks to a ground motion.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "stickslip/rocking/state.hpp"
+#include "stickslip/run/response.hpp"
+
+namespace stickslip {
+
+/// What happens to a block.
+enum class RockingEventKind : std::uint8_t {
+  uplift,      ///< it starts to rock, from rest (or rocks already at the start)
+  impact,      ///< its base hits the ground; the rate is that before the impact
+  rest,        ///< it comes to rest on its base
+  overturned,  ///< it is certain that it never comes back
+  end          ///< the motion is over
+};
+
+struct RockingEvent {
+  double time;      ///< [s]
+  double rotation;  ///< theta [rad]
+  double rate;      ///< theta' [rad/s]
+  RockingEventKind kind;
+};
+
+/// The motion of a block under one ground motion. Energies are per unit moment of inertia about a corner [1/s^2]:
+/// `elastic` is the potential energy p^2 (s alpha theta - theta^2/2) under gravity, `dissipated` what a fall on its side
+/// takes.
+struct RockingResponse {
+  /// theta at the samples of the motion [rad]. With `settle`, if the block still rocks at the last sample, further
+  /// samples follow with the last time step, up to the first at or after rest. Once it lies on its side, +-pi/2.
+  std::vector<double> rotation;
+  std::vector<double> rate;          ///< theta' at the same times [rad/s]
+  std::vector<RockingEvent> events;  ///< in order of time; the last is the end
+  double peak = 0;        ///< largest |theta| over all time, not only at samples [rad]; pi/2 if it overturned
+  double peak_time = 0;   ///< its time; of an overturned block, that at which it is certain [s]
+  double peak_ratio = 0;  ///< largest |theta| over alpha of the side; infinite if it overturned
+  int overturned = 0;     ///< +1 to the right, -1 to the left, 0 if it stands
+  /// When it is certain that it never comes back; NaN if it stands [s].
+  double overturned_at = std::numeric_limits<double>::quiet_NaN();
+  std::size_t impacts = 0;  ///< those faster than 1e-3 p alpha; the others are too many to count
+  std::size_t uplifts = 0;  ///< from rest
+  double time_rocking = 0;  ///< [s]
+  Energy energy;
+  /// How close the nearest decision was, relative to what decides: the distance from the stable manifold of the
+  /// overturning at turning points beyond alpha / 2, over p alpha; that of the load from the level of uplift at its
+  /// maxima at rest; infinite without a decision. If tiny, the history hangs on round-off.
+  double margin = std::numeric_limits<double>::infinity();
+  /// |d theta_end / d ln scale| / alpha with the ground motion scaled: an error of 1e-16 of the input grows to this times
+  /// 1e-16 in theta / alpha.
+  double condition = 0;
+  bool truncated = false;  ///< as ResponseOf::truncated
+  std::string components = "axis";
+  RockingState state;  ///< at the end: a motion can be continued from it
+};
+
+}  // namespace stickslip

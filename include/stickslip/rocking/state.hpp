@@ -1,0 +1,26 @@
+// The state of a block that rocks.
+#pragma once
+
+#include <cstdint>
+
+namespace stickslip {
+
+/// What a block stands on: its base, or one corner.
+enum class RockingMode : std::int8_t { left = -1, rest = 0, right = 1 };
+
+/// Everything on which the future motion of a block depends.
+struct RockingState {
+  double rotation = 0;  ///< theta [rad]; 0 at rest
+  double rate = 0;      ///< theta' [rad/s]; 0 at rest
+  RockingMode mode = RockingMode::rest;
+  /// The side to which it has overturned, +1 right or -1 left; 0 if it has not.
+  std::int8_t overturned = 0;
+
+  /// A block that stands on its base, or tilts about a corner. A tilt of zero with a rate is that of an impact.
+  static RockingState at(double rotation, double rate) noexcept {
+    const double way = rotation > 0 || rotation < 0 ? rotation : rate;
+    return {rotation, rate, way > 0 ? RockingMode::right : way < 0 ? RockingMode::left : RockingMode::rest};
+  }
+};
+
+}  // namespace stickslip

@@ -1,0 +1,354 @@
+#include "stickslip/rocking/integrate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rocking/leg.hpp"
+#include "rocking/overturning.hpp"
+#include "rocking/system.hpp"
+#include "stickslip/error.hpp"
+#include "stickslip/run/event_log.hpp"
+#include "stickslip/run/run.hpp"
+#include "stickslip/sliding/detail/loop.hpp"
+
+namespace stickslip {
+namespace detail {
+namespace {
+
+constexpr double quarter_turn = std::numbers::pi / 2;  // the block lies on its side
+
+bool lies(const RockingState& state) noexcept { return std::abs(state.rotation) >= quarter_turn; }
+
+RockingEventKind kind_of(EventKind kind) noexcept {
+  switch (kind) {
+    case EventKind::impact:
+      return RockingEventKind::impact;
+    case EventKind::arrest:
+      return RockingEventKind::rest;
+    case EventKind::end:
+      return RockingEventKind::end;
+    default:
+      return RockingEventKind::uplift;
+  }
+}
+
+double kinetic_energy(const RockingState& state) noexcept { return state.rate * state.rate / 2; }
+double elastic_energy(const SlenderBlock& block, const RockingState& state) noexcept {
+  const double tilt = std::abs(state.rotation), alpha = state.rotation < 0 ? block.alpha_left() : block.alpha_right();
+  return block.p() * block.p() * tilt * (alpha - tilt / 2);
+}
+
+class NoRockingSink final : public RockingSink {
+ public:
+  void follow(const RockingLeg&, double, double, const RockingLeg::Place&) override {}
+  void event(EventKind, double, const RockingState&) override {}
+};
+
+// Moves a state through a segment. A block that lies on its side stays there.
+void move(const SlenderBlock& block, const RockingSegment& ground, RockingState& state, RockingSink& sink) {
+  if (!(ground.duration > 0) || lies(state)) return;
+  RockingSystem system(block, ground, state);
+  stickslip::detail::advance(system, sink);
+  if (!lies(state)) return;
+  const double before = kinetic_energy(state) + elastic_energy(block, state);
+  state.overturned = state.rotation > 0 ? 1 : -1;
+  state.rotation = std::copysign(quarter_turn, state.rotation);
+  state.rate = 0;
+  sink.fall(before - elastic_energy(block, state));
+}
+
+class RockingRecorder final : public RockingSink, public EventLog<double>, public Pace<4096> {
+ public:
+  RockingRecorder(const SlenderBlock& block, const Overturning* overturning, const RockingState& state,
+                  std::size_t event_limit, const std::function<void()>& progress, RockingResponse& response)
+      : EventLog(event_limit, {}),
+        Pace(progress),
+        block_(block),
+        overturning_(overturning),
+        response_(response),
+        count_from_(1e-3 * block.p() * block.alpha()) {
+    reach(state.rotation, 0);
+  }
+
+  // The segment of the ground motion, and its number.
+  void begin_segment(double begin, double end, const RockingSegment& ground, std::optional<std::size_t> number) {
+    EventLog::begin_segment(begin, end);
+    ground_ = ground;
+    number_ = number;
+  }
+  using EventLog::begin_segment;
+
+  void follow(const RockingLeg& leg, double begin, double duration, const RockingLeg::Place& end) override {
+    count_work();
+    const double s = leg.side();
+    reach(end.rotation, when(begin + duration));
+    leg.for_each_turn(duration, end, [&](const RockingLeg::Place& at, double t) {
+      reach(at.rotation, when(begin + t));
+      if (overturning_ == nullptr || !number_ || !(s * at.rotation > 0.5 * block_.alpha())) return;
+      const Segment motion{ground_.duration, ground_.n_start, ground_.n_end};
+      const double left = std::max(ground_.duration - begin - t, 0.0);
+      response_.margin = std::min(response_.margin, overturning_->distance(*number_, motion, left, at, s));
+    });
+    response_.energy.input += leg.input(end, duration);
+    response_.time_rocking += duration;
+    const RockingLeg varied(block_, ground_, begin, variation_, 0);
+    variation_ = varied.at(duration);
+    arrives_ = leg.acceleration(end.rotation, duration);
+  }
+
+  void event(EventKind kind, double time, const RockingState& state) override {
+    count_work();
+    add(kind, time, state.rotation, state.rate);
+    if (kind == EventKind::impact) {
+      if (std::abs(state.rate) > count_from_) ++response_.impacts;
+      vary_by_impact(time, state);
+    } else {
+      if (kind == EventKind::breakaway && equal(state.rotation, 0) && equal(state.rate, 0)) ++response_.uplifts;
+      if (kind != EventKind::end) variation_ = {0, 0};
+    }
+  }
+  void lose(double energy) override { response_.energy.impact += energy; }
+  void fall(double energy) override { response_.energy.dissipated += energy; }
+  void decide(double margin) override { response_.margin = std::min(response_.margin, margin); }
+
+  bool has_overturned() const noexcept { return response_.overturned != 0; }
+  void overturned(double time, const RockingState& state) {
+    response_.overturned = state.overturned;
+    response_.overturned_at = time;
+    log_overturning_ = {time, state.rotation, state.rate, RockingEventKind::overturned};
+  }
+  // How far theta depends on the logarithm of the scale.
+  void sample(const RockingState& state) {
+    if (response_.overturned != 0) return;
+    if (is_stuck(state)) variation_ = {0, 0};
+    response_.condition = std::max(response_.condition, std::abs(variation_.rotation) / block_.alpha());
+  }
+
+  void finish(RockingResponse& response) {
+    for (const EventAt<double>& one : take()) {
+      if (log_overturning_ && log_overturning_->time <= one.time)
+        response.events.push_back(*std::exchange(log_overturning_, std::nullopt));
+      response.events.push_back({one.time, one.displacement, one.velocity, kind_of(one.kind)});
+    }
+    if (response.overturned == 0) return;
+    response.peak = quarter_turn;
+    response.peak_time = response.overturned_at;
+    response.peak_ratio = std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  void reach(double rotation, double time) {
+    const double size = std::abs(rotation);
+    if (!(size > response_.peak)) return;
+    response_.peak = size;
+    response_.peak_time = time;
+    response_.peak_ratio =
+        std::max(response_.peak_ratio, size / (rotation > 0 ? block_.alpha_right() : block_.alpha_left()));
+  }
+  void vary_by_impact(double time, const RockingState& state) {
+    const double r = block_.restitution();
+    const double other = state.rate > 0 ? block_.alpha_right() : -block_.alpha_left();  // it goes on with its rate
+    const double leaves = block_.p() * block_.p() / standard_gravity * (-ground_.heavy(time) * other - ground_.n(time));
+    const double shift = variation_.rotation / state.rate;
+    variation_ = {r * variation_.rotation, r * variation_.rate - (r * arrives_ - leaves) * shift};
+  }
+
+  const SlenderBlock& block_;
+  const Overturning* overturning_;  // null under vertical motion
+  RockingResponse& response_;
+  double count_from_;
+  RockingSegment ground_{};
+  std::optional<std::size_t> number_{};
+  std::optional<RockingEvent> log_overturning_{};
+  RockingLeg::Place variation_{0, 0};  // of theta and theta' by the logarithm of the scale
+  double arrives_ = 0;                 // theta'' at the end of the last leg
+};
+
+class RockingRun {
+ public:
+  using State = RockingState;
+  using Response = RockingResponse;
+  using Recorder = RockingRecorder;
+
+  RockingRun(const SlenderBlock& block, const GroundMotion& motion, const RockingOptions& options)
+      : block_(block), motion_(motion), options_(options) {
+    if (!motion.has_vertical()) {
+      overturning_.emplace(block, motion);
+      return;
+    }
+    for (std::size_t i = 0; i < motion.samples(); ++i)
+      require(standard_gravity + motion.vertical()[i] > 0,
+              "integrate: under this vertical motion the block leaves the ground, which a SlenderBlock cannot; g + a_z "
+              "must "
+              "be positive; is the vertical acceleration in m/s^2?",
+              standard_gravity + motion.vertical()[i], "m/s^2");
+  }
+
+  const GroundMotion& motion() const noexcept { return motion_; }
+  const RockingOptions& options() const noexcept { return options_; }
+
+  State start() const {
+    require(std::isfinite(options_.rotation) && std::abs(options_.rotation) < quarter_turn,
+            "integrate: rotation must be below pi/2 in magnitude", options_.rotation, "rad");
+    require(std::isfinite(options_.rate), "integrate: rate must be finite", options_.rate, "rad/s");
+    return State::at(options_.rotation, options_.rate);
+  }
+
+  Recorder recorder(const State& state, Response& response) const {
+    response.rotation.resize(motion_.samples());
+    response.rate.resize(motion_.samples());
+    keep(0, state, response);
+    if (motion_.has_vertical()) response.components = "axis + vertical";
+    return {block_,  overturning_ ? &*overturning_ : nullptr, state, max_events(motion_.segments()), options_.progress,
+            response};
+  }
+
+  void walk(State& state, Recorder& recorder, Response& response) const {
+    const std::size_t count = motion_.segments();
+    Approach approach(block_);
+    for (std::size_t i = 0; i < count; ++i) {
+      const RockingSegment ground = segment(i);
+      if (is_stuck(state)) {
+        const UpliftMargins first(block_, ground.n_start, ground.heavy_start),
+            last(block_, ground.n_end, ground.heavy_end);
+        if (std::max(std::max(first.right, first.left), std::max(last.right, last.left)) <= 0) {
+          approach.look(ground, recorder);
+          keep(i + 1, state, response);
+          continue;
+        }
+      }
+      approach.forget();
+      recorder.begin_segment(motion_.time(i), motion_.time(i + 1), ground, i);
+      move(block_, ground, state, recorder);
+      judge(i + 1, state, recorder);
+      recorder.sample(state);
+      keep(i + 1, state, response);
+      if (i % Recorder::work_per_report == 0) recorder.report_progress();
+    }
+  }
+
+  // Without ground motion a block falls where q = s theta' + p (s theta - alpha) is positive, and else comes to rest.
+  double settle(State& state, Recorder& recorder, Response& response) const {
+    const std::size_t first = motion_.segments();
+    const double begin = motion_.time(first), step = motion_.last_step();
+    State sampled = state;
+    double time = begin;
+    const double longest = 64 / block_.p();
+    while (!is_stuck(state) && state.overturned == 0) {
+      const double s = sign(state.mode);
+      if (s * state.rate + block_.p() * (s * state.rotation - alpha_of(block_, state.mode)) > 0) {
+        state.overturned = static_cast<std::int8_t>(s);
+        recorder.overturned(time, state);
+        break;
+      }
+      require(block_.restitution() < 1,
+              "integrate: a block with this restitution never comes to rest; use settle = false; restitution",
+              block_.restitution());
+      const RockingSegment calm{longest, 0, 0, standard_gravity, standard_gravity, true};
+      recorder.begin_segment(time, time + longest, calm, {});
+      move(block_, calm, state, recorder);
+      time += longest;
+      if (state.overturned != 0) recorder.overturned(recorder.last_event(), state);
+    }
+    const double end = std::max(begin, recorder.last_event());
+    NoRockingSink none;
+    const RockingSegment calm{step, 0, 0, standard_gravity, standard_gravity};
+    for (std::size_t i = first; motion_.time(i) < end; ++i) {
+      if (i + 1 >= 10 * motion_.samples()) {
+        response.truncated = true;
+        break;
+      }
+      move(block_, calm, sampled, none);
+      if (!(motion_.time(i + 1) < end)) sampled = state;
+      response.rotation.push_back(sampled.rotation);
+      response.rate.push_back(sampled.rate);
+    }
+    return end;
+  }
+
+  double kinetic(const State& state) const { return kinetic_energy(state); }
+  double elastic(const State& state) const { return elastic_energy(block_, state); }
+  void finish(const State& state, Response& response) const { response.state = state; }
+
+ private:
+  // The relative distance of the load from the levels of uplift at its maxima at rest.
+  class Approach {
+   public:
+    explicit Approach(const SlenderBlock& block) : block_(block) {}
+
+    void look(const RockingSegment& ground, RockingRecorder& recorder) {
+      look(ground.n_start, ground.heavy_start, recorder);
+      look(ground.n_end, ground.heavy_end, recorder);
+    }
+    void forget() noexcept { last_ = rise_ = 0; }
+
+   private:
+    void look(double n, double heavy, RockingRecorder& recorder) {
+      const double load = std::max(-n / (block_.alpha_right() * heavy), n / (block_.alpha_left() * heavy));
+      if (load < last_ && rise_ > 0) recorder.decide(1 - last_);
+      if (!equal(load, last_)) rise_ = load - last_;
+      last_ = load;
+    }
+    const SlenderBlock& block_;
+    double last_ = 0, rise_ = 0;
+  };
+
+  RockingSegment segment(std::size_t i) const {
+    const Segment s = motion_.segment(i);
+    RockingSegment ground{s.duration, s.start, s.end, standard_gravity, standard_gravity};
+    if (motion_.has_vertical()) {
+      const bool held = motion_.interpolation() == Interpolation::constant;
+      ground.heavy_start += motion_.vertical()[i];
+      ground.heavy_end += motion_.vertical()[held ? i : i + 1];
+    }
+    return ground;
+  }
+  void judge(std::size_t sample, State& state, Recorder& recorder) const {
+    if (recorder.has_overturned()) return;
+    if (overturning_ && overturning_->certain(sample, state))
+      state.overturned = static_cast<std::int8_t>(sign(state.mode));
+    if (state.overturned != 0) recorder.overturned(motion_.time(sample), state);
+  }
+  void keep(std::size_t sample, const State& state, Response& response) const {
+    response.rotation[sample] = state.rotation;
+    response.rate[sample] = state.rate;
+  }
+
+  const SlenderBlock& block_;
+  const GroundMotion& motion_;
+  const RockingOptions& options_;
+  std::optional<Overturning> overturning_{};
+};
+
+}  // namespace
+}  // namespace detail
+
+RockingResponse integrate(const SlenderBlock& block, const GroundMotion& motion, const RockingOptions& options) {
+  return detail::integrate_run(detail::RockingRun(block, motion, options), {});
+}
+
+void advance(const SlenderBlock& block, const RockingGround& segment, RockingState& state) {
+  for (const double value : {segment.duration, segment.start, segment.end, segment.vertical_start, segment.vertical_end,
+                             state.rotation, state.rate})
+    detail::require(std::isfinite(value), "advance: segment and state must be finite", value);
+  for (const double up : {segment.vertical_start, segment.vertical_end})
+    detail::require(standard_gravity + up > 0,
+                    "advance: the block leaves the ground, which a SlenderBlock cannot; g + a_z must be positive",
+                    standard_gravity + up, "m/s^2");
+  RockingState moved = state;
+  detail::NoRockingSink none;
+  detail::move(block,
+               {segment.duration, segment.start, segment.end, standard_gravity + segment.vertical_start,
+                standard_gravity + segment.vertical_end},
+               moved, none);
+  state = moved;
+}
+
+}  // namespace stickslip

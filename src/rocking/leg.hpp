@@ -1,0 +1,287 @@
+// The motion of a slender block about one corner.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "stickslip/base/equal.hpp"
+#include "stickslip/flow/closed_form.hpp"
+#include "stickslip/flow/power_series.hpp"
+#include "stickslip/numerics/gauss_legendre.hpp"
+#include "stickslip/numerics/root.hpp"
+#include "stickslip/rocking/slender_block.hpp"
+#include "stickslip/rocking/state.hpp"
+#include "stickslip/units.hpp"
+
+namespace stickslip::detail {
+
+/// The ground under a block during a segment, linear in time.
+struct RockingSegment {
+  double duration;                // [s]
+  double n_start, n_end;          // horizontal ground acceleration [m/s^2]
+  double heavy_start, heavy_end;  // G = g + a_z [m/s^2]
+  bool still = false;             // the ground does not move, nor will it ever again
+
+  double n(double time) const noexcept { return at(n_start, n_end, time); }
+  double heavy(double time) const noexcept { return at(heavy_start, heavy_end, time); }
+
+ private:
+  double at(double first, double last, double time) const noexcept {
+    return time < duration ? first + (last - first) * (time / duration) : last;
+  }
+};
+
+inline double sign(RockingMode mode) noexcept { return static_cast<double>(static_cast<int>(mode)); }
+inline double alpha_of(const SlenderBlock& block, RockingMode mode) noexcept {
+  return mode == RockingMode::left ? block.alpha_left() : block.alpha_right();
+}
+
+/// sinh(Pt)/P, (cosh(Pt) - 1)/P^2 and t - sinh(Pt)/P, without cancellation.
+struct HyperbolicSums {
+  HyperbolicSums(double p, double t) noexcept {
+    const double x = p * t, half = std::sinh(x / 2);
+    first = std::sinh(x) / p;
+    second = 2 * half * half / (p * p);
+    cosh = 1 + 2 * half * half;
+    if (x < 1) {
+      const double square = x * x;
+      double sum = 0;
+      for (int k = 19; k >= 5; k -= 2) sum = (sum + 1) * square / (k * (k - 1));
+      third = -t * (square / 6) * (1 + sum);
+    } else {
+      third = t - first;
+    }
+  }
+
+  double first, second, third, cosh;
+};
+
+/// The motion about a corner from a start, theta(0) = theta0 and theta'(0) = w0. Under a constant G
+///     theta = theta0 + w0 S1 + a0 S2 + c1 S3,   theta' = w0 cosh(Pt) + a0 S1 + c1 (1 - cosh(Pt)),
+/// P = p sqrt(G/g), a0 = theta''(0), c1 = p^2 n'/(g P^2); S of HyperbolicSums. Near theta = 0 no other form keeps the digits of
+/// a small bounce. Under a G that is linear in time it is a power series.
+class RockingLeg {
+ public:
+  struct Place {
+    double rotation, rate;
+  };
+
+  /// @param begin  since the beginning of the segment [s]
+  /// @param tilt   s alpha; 0 for the variation of a motion with the scale of the ground motion
+  RockingLeg(const SlenderBlock& block, const RockingSegment& ground, double begin, const Place& start, double tilt)
+      : RockingLeg(block, ground, begin, start, tilt,
+                   block.p() * block.p() / standard_gravity *
+                       (ground.heavy(begin) * (start.rotation - tilt) - ground.n(begin))) {}
+  /// @param acceleration  theta'' at the start, known
+  RockingLeg(const SlenderBlock& block, const RockingSegment& ground, double begin, const Place& start, double tilt,
+             double acceleration)
+      : start_(start),
+        duration_(ground.duration - begin),
+        a0_(acceleration),
+        square_(block.p() * block.p() / standard_gravity),
+        n0_(ground.n(begin)),
+        heavy0_(ground.heavy(begin)),
+        tilt_(tilt) {
+    if (ground.duration > 0) {
+      n1_ = (ground.n_end - ground.n_start) / ground.duration;
+      heavy1_ = (ground.heavy_end - ground.heavy_start) / ground.duration;
+    }
+    if (equal(heavy1_, 0)) {
+      p_ = std::sqrt(square_ * heavy0_);
+      c1_ = n1_ / heavy0_;
+    } else {
+      expand();
+    }
+  }
+
+  double duration() const noexcept { return duration_; }
+  double side() const noexcept { return tilt_ > 0 ? 1 : -1; }
+
+  Place at(double t) const noexcept {
+    if (order_ > 0) {
+      const double u = t / duration_;
+      double value = 0, slope = 0;
+      for (int k = order_; k > 0; --k) {
+        slope = slope * u + k * series_[static_cast<std::size_t>(k)];
+        value = (value + series_[static_cast<std::size_t>(k)]) * u;
+      }
+      return {start_.rotation + value, slope / duration_};
+    }
+    return at(HyperbolicSums(p_, t));
+  }
+  Place at(const HyperbolicSums& s) const noexcept {
+    return {start_.rotation + (start_.rate * s.first + a0_ * s.second + c1_ * s.third),
+            start_.rate * s.cosh + a0_ * s.first - c1_ * (p_ * p_) * s.second};
+  }
+  /// theta'' where it is at a time.
+  double acceleration(double rotation, double t) const noexcept {
+    return equal(t, 0) ? a0_ : square_ * ((heavy0_ + t * heavy1_) * (rotation - tilt_) - n0_ - t * n1_);
+  }
+
+  /// When theta passes zero; `never` if it does not until the end.
+  /// @param end  where it is then
+  double impact(const Place& end) const {
+    const double s = tilt_ > 0 ? 1 : -1;
+    if (order_ > 0) {
+      Polynomial room{};
+      room[0] = s * start_.rotation;
+      for (int k = 1; k <= order_; ++k) room[static_cast<std::size_t>(k)] = s * series_[static_cast<std::size_t>(k)];
+      int leading = 0;
+      while (leading <= order_ && equal(room[static_cast<std::size_t>(leading)], 0)) ++leading;
+      if (leading > order_) return never;
+      if (room[static_cast<std::size_t>(leading)] < 0) return 0;
+      const double part = FirstRoot(room.data() + leading, order_ - leading).find();
+      return part < never ? part * duration_ : never;
+    }
+    if (s * end.rotation > 0) {
+      const double first = s * a0_, last = s * acceleration(end.rotation, duration_);
+      if (first <= 0 && last <= 0) return never;  // concave
+      const double from = s * start_.rate, to = s * end.rate;
+      if (from <= 0 && to <= 0 && !(first > 0 && last < 0)) return never;  // monotone
+      if (from >= 0 && to >= 0 && !(first < 0 && last > 0)) return never;
+    }
+    // theta is monotone between its turning points.
+    double begin = 0, before = s * start_.rotation;
+    for (const double turn : turning_points()) {
+      const double until = turn < duration_ ? turn : duration_;
+      const double after = s * (turn < duration_ ? at(until).rotation : end.rotation);
+      if (!(after > 0) && (before > 0 || begin > 0)) return zero(s, begin, before, until, after);
+      if (!(after > 0) && !(before > 0) && !leaves(s)) return 0;
+      if (!(turn < duration_)) break;
+      begin = until;
+      before = after;
+    }
+    return never;
+  }
+
+  /// Where the rate vanishes within the leg, in order, and then never: at most twice under a constant G.
+  std::array<double, 3> turning_points() const noexcept {
+    std::array<double, 3> turns{never, never, never};
+    // (w0 - 2 c1) tau^2 + (2 a0/P) tau + w0 = 0, tau = tanh(Pt/2)
+    const double a = start_.rate - 2 * c1_, half = a0_ / p_, c = start_.rate;
+    std::array<double, 2> tau{never, never};
+    const double square = half * half - a * c;
+    if (square >= 0) {
+      const double q = -(half + std::copysign(std::sqrt(square), half));
+      if (!equal(a, 0)) tau[0] = q / a;
+      if (!equal(q, 0)) tau[1] = c / q;
+    }
+    std::size_t count = 0;
+    std::sort(tau.begin(), tau.end());
+    for (const double one : tau)
+      if (one > 0 && one < 1)
+        if (const double t = 2 * std::atanh(one) / p_; t < duration_) turns[count++] = t;
+    return turns;
+  }
+  /// Call `use(place, time)` where the rate vanishes.
+  /// @param until, end  a time, and the place then
+  template <class Use>
+  void for_each_turn(double until, const Place& end, Use&& use) const {
+    const double first = a0_, last = acceleration(end.rotation, until);
+    if (start_.rate * end.rate > 0 && first * last >= 0) return;
+    if (order_ == 0) {
+      for (const double t : turning_points())
+        if (t < until) use(at(t), t);
+      return;
+    }
+    // The rate is monotone on both sides of the zero of the acceleration.
+    double middle = until;
+    Place there = end;
+    if (first * last < 0) {
+      middle = numerics::root([&](double t) { return acceleration(at(t).rotation, t); }, 0.0, first, until, last);
+      there = at(middle);
+    }
+    const auto turn_between = [&](double from, double w, double to, double w_then) {
+      if (!(w * w_then < 0)) return;
+      const double t = numerics::root([&](double time) { return at(time).rate; }, from, w, to, w_then);
+      use(at(t), t);
+    };
+    turn_between(0, start_.rate, middle, there.rate);
+    if (middle < until) turn_between(middle, there.rate, until, end.rate);
+  }
+
+  /// Work of the ground until a time, per unit moment of inertia about the corner: the integral of -p^2 n/g theta', and of
+  /// p^2 (G/g - 1)(theta - s alpha) theta'.
+  double input(const Place& end, double t) const noexcept {
+    const double integral = integral_of_rotation(t);  // of theta - theta0
+    double work = -square_ * ((n0_ + t * n1_) * (end.rotation - start_.rotation) - n1_ * integral);
+    const double first = heavy0_ - standard_gravity, last = first + t * heavy1_;
+    if (!equal(first, 0) || !equal(last, 0)) {
+      const auto potential = [&](double theta) { return theta * (theta / 2 - tilt_); };
+      work += square_ * (last * potential(end.rotation) - first * potential(start_.rotation));
+      if (!equal(heavy1_, 0)) work -= square_ * heavy1_ * integral_of_potential(t);
+    }
+    return work;
+  }
+
+ private:
+  static constexpr int highest = 24;
+  using Polynomial = std::array<double, highest + 1>;
+
+  bool leaves(double s) const noexcept {
+    if (!equal(start_.rate, 0)) return s * start_.rate > 0;
+    if (!equal(a0_, 0)) return s * a0_ > 0;
+    return s * c1_ < 0;  // S3 is negative
+  }
+
+  double zero(double s, double a, double fa, double b, double fb) const {
+    if (!(fa > 0)) {  // it begins at zero and leaves: a little later it is above
+      return b;
+    }
+    const auto room = [&](double t) { return s * at(t).rotation; };
+    return numerics::root(room, a, fa, b, fb, 0x1p-1000);
+  }
+
+  // theta - theta0 in powers of t / duration, for as long as the series takes.
+  void expand() {
+    const double p = std::sqrt(square_ * std::max(heavy0_, heavy0_ + heavy1_ * duration_));
+    duration_ = std::min(duration_, 1 / p);
+    const double h = duration_, g0 = square_ * heavy0_ * h * h, g1 = square_ * heavy1_ * h * h * h;
+    series_[0] = 0;
+    series_[1] = start_.rate * h;
+    series_[2] = a0_ * h * h / 2;
+    for (std::size_t k = 1; k + 2 <= highest; ++k) {
+      double next = g0 * series_[k] + g1 * series_[k - 1];
+      if (k == 1) next += g1 * (start_.rotation - tilt_) - square_ * n1_ * h * h * h;
+      series_[k + 2] = next / static_cast<double>((k + 1) * (k + 2));
+    }
+    order_ = highest;
+  }
+
+  double integral_of_rotation(double t) const noexcept {
+    if (order_ > 0) {
+      const double u = t / duration_;
+      double value = 0;
+      for (int k = order_; k > 0; --k) value = (value + series_[static_cast<std::size_t>(k)] / (k + 1)) * u;
+      return value * t;
+    }
+    const HyperbolicSums s(p_, t);
+    return start_.rate * s.second - a0_ * s.third / (p_ * p_) + c1_ * (t * t / 2 - s.second);
+  }
+  // Of theta^2/2 - s alpha theta.
+  double integral_of_potential(double t) const noexcept {
+    constexpr int points = 12;
+    double sum = 0;
+    for (int i = 0; i < points; ++i) {
+      const double u = numerics::gauss_legendre<points>.nodes[static_cast<std::size_t>(i)];
+      const double theta = at(u * t).rotation;
+      sum += numerics::gauss_legendre<points>.weights[static_cast<std::size_t>(i)] * theta * (theta / 2 - tilt_);
+    }
+    return sum * t;
+  }
+
+  Place start_;
+  double duration_;     // [s]
+  double a0_, c1_ = 0;  // theta'' at the start; p^2 n'/(g P^2)
+  double p_ = 0;        // P [rad/s]
+  double square_;       // p^2 / g
+  double n0_, n1_ = 0;  // n at the start, and its rate
+  double heavy0_, heavy1_ = 0;
+  double tilt_;    // s alpha
+  int order_ = 0;  // 0: hyperbolic
+  Polynomial series_{};
+};
+
+}  // namespace stickslip::detail
