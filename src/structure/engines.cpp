@@ -27,6 +27,8 @@ template void move_structure(const ModalInterface&, const Stribeck&, const LoadS
                              LawExpansion<Stribeck>&, StructureSink&);
 template void move_structure(const ModalInterface&, const Degrading&, const LoadSegment&, StructureState&,
                              LawExpansion<Degrading>&, StructureSink&);
+template void move_structure(const ModalInterface&, const MultiPendulum&, const LoadSegment&, StructureState&,
+                             LawExpansion<MultiPendulum>&, StructureSink&);
 template void move_structure(const ModalInterface&, const KumarFriction&, const LoadSegment&, StructureState&,
                              LawExpansion<KumarFriction>&, StructureSink&);
 template void move_structure(const ModalInterface&, const StaticKinetic<Coulomb>&, const LoadSegment&, StructureState&,

@@ -109,6 +109,7 @@ class Expansion {
           along(law, series::Variable{&factor}, series::Variable{&place}, series::Variable{&speed}, direction));
       const bool slides = state.mode != Mode::stuck;
       begin(state, ground, left, h);
+      if constexpr (SpringLaw<Law>) dissipating_ = law.friction(state.displacement, direction);
       constexpr bool linear = std::is_same_v<decltype(level), series::Constant>;
       const int least = order_;
       if (!linear && slides) order_ = series::highest_order;
@@ -137,7 +138,8 @@ class Expansion {
         }
       }
       if (linear || !slides ||
-          (ends(order_, fastest, highest, slack(fastest)) && follows(law, s, direction, fastest, highest)))
+          (ends(order_, fastest, highest, slack(fastest)) &&
+           (form_of<Law> == Form::linear || follows(law, s, direction, fastest, highest))))
         return;
       h /= 2;
       if (!(h > 0x1p-60 * ground.duration))
@@ -154,6 +156,9 @@ class Expansion {
   const double* displacement() const noexcept { return x_.data(); }     // [m]
   const double* acceleration() const noexcept { return a_.data(); }     // x'' [m/s^2]
   const double* friction() const noexcept { return friction_.data(); }  // F [m/s^2]
+  const double* level() const noexcept { return level_.data(); }        // of the law, under the weight g [m/s^2]
+  /// The constant part of the level that dissipates, of a law that contains springs [m/s^2]; NaN: all of it does.
+  double dissipating() const noexcept { return dissipating_; }
   const std::array<double, 2>& ground() const noexcept { return n_; }
   const std::array<double, 2>& weight() const noexcept { return weight_; }
   const double* pull() const noexcept { return pull_.data(); }
@@ -178,7 +183,7 @@ class Expansion {
     double power = 1;
     for (int k = 1; k <= order_; ++k) {
       power *= u;
-      for (auto* c : {&q_, &v_, &x_, &a_, &friction_, &pull_}) (*c)[at(k)] *= power;
+      for (auto* c : {&q_, &v_, &x_, &a_, &friction_, &level_, &pull_}) (*c)[at(k)] *= power;
       double *y = row(y_, k), *rate = row(rate_, k), *acceleration = row(acceleration_, k);
       for (std::size_t j = 0; j < modes_; ++j) y[j] *= power, rate[j] *= power, acceleration[j] *= power;
     }
@@ -281,6 +286,7 @@ class Expansion {
   std::vector<double> y_, rate_, acceleration_;  // order by order
   std::vector<double> force_;                    // r of the present order
   double demand_force_ = 0;                      // demand.r of it
+  double dissipating_ = std::numeric_limits<double>::quiet_NaN();
 };
 
 }  // namespace stickslip::detail

@@ -23,7 +23,14 @@ inline State interface_of(const StructureState& state) {
           .velocity = state.velocity,
           .mode = state.mode,
           .sliding_distance = state.sliding_distance,
-          .heat = state.heat};
+          .heat = state.heat,
+          .pendulum = state.pendulum};
+}
+
+/// The memory of the law of the interface, back from its state.
+inline void remember(const State& interface, StructureState& state) {
+  state.sliding_distance = interface.sliding_distance;
+  state.pendulum = interface.pendulum;
 }
 
 /// What friction can hold at rest during an expansion: powers of time in units of its duration [m/s^2].

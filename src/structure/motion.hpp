@@ -182,7 +182,7 @@ class StructureMotion {
         State there = memory();
         law_.pass(there, direction);
         state_.displacement = there.displacement;
-        state_.sliding_distance = there.sliding_distance;
+        remember(there, state_);
       }
       limits_.move(direction, passage.room);
       demand_ = demand_now();
@@ -237,7 +237,11 @@ class StructureMotion {
       return (law_);
   }
   void slid(double distance) {
-    if constexpr (MemoryLaw<Law>) state_.sliding_distance += std::max(distance, 0.0);
+    if constexpr (MemoryLaw<Law>) {
+      State there = memory();
+      stickslip::detail::slide(law_, there, std::max(distance, 0.0));
+      remember(there, state_);
+    }
   }
   double holds(Direction direction) const {
     return limits_.bound(direction, state_.displacement, hold(law_now(), state_.displacement, direction));

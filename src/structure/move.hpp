@@ -22,12 +22,9 @@
 
 namespace stickslip::detail {
 
-/// Whether the motion of a structure can be expanded under a law. A law with springs of its own would need their
-/// memory.
+/// Whether the motion of a structure can be expanded under a law.
 template <class Law>
-constexpr bool interface_law = SeparableHeatedLaw<Law> ||
-                               (form_of<Law> != Form::numeric &&
-                                !requires(const Law& law, const State& state) { law.elastic(state); });
+constexpr bool interface_law = SeparableHeatedLaw<Law> || form_of<Law> != Form::numeric;
 
 /// Calls `use(law)` with the law of the interface.
 /// @param name  of the class of the structure, whose constructor has this checked
@@ -40,8 +37,7 @@ void with_interface_law(const AnySlider& slider, Use&& use, const char* name = "
         else
           throw std::invalid_argument(
               std::string(name) +
-              ": a structure cannot slide on this law: levels that are functions of numbers and pendulums with "
-              "several surfaces are not covered");
+              ": a structure cannot slide on this law: levels that are functions of numbers are not covered");
       },
       slider);
 }
@@ -123,7 +119,7 @@ template <FrictionLaw Law>
 void refuse_endless(const ModalInterface& of, const Law& law, const StuckBound& bound, double step,
                     const StructureState& state, std::size_t steps) {
   constexpr double margin = 1000;  // for friction that is higher later
-  if (of.spring.stiffness > 0 || of.damper > 0 || of.stops) return;
+  if (of.spring.stiffness > 0 || of.damper > 0 || of.stops || LawWithSprings<Law>) return;
   const double speed = std::abs(state.velocity), time = static_cast<double>(most_calm_steps - steps) * step;
   double level = 0;
   for (const Direction direction : {Direction::forward, Direction::backward}) {

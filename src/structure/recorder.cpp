@@ -112,10 +112,24 @@ void StructureRecorder::add_work(const Expansion& motion, Mode mode) {
     const double s = static_cast<double>(static_cast<int>(mode));
     response_.sliding_distance += std::max(motion.distance(s, 1), 0.0);
     response_.time_sliding += h;
-    const double* friction = motion.friction();
-    int last = order;
-    while (last > 0 && equal(friction[last], 0)) --last;
-    energy.dissipated += s * h * product_integral(friction, last, v, order);
+    if (const double level = motion.dissipating(); std::isnan(level)) {
+      const double* friction = motion.friction();
+      int last = order;
+      while (last > 0 && equal(friction[last], 0)) --last;
+      energy.dissipated += s * h * product_integral(friction, last, v, order);
+    } else {
+      // The rest of the level is that of springs, of whose force under the weight `elastic` is the energy.
+      const auto [weight, gains] = motion.weight();
+      const Polynomial dissipates{level * weight, level * gains};
+      energy.dissipated += s * h * product_integral(dissipates.data(), 1, v, order);
+      Polynomial part{};
+      const double* all = motion.level();
+      for (int k = 0; k <= order; ++k) {
+        const auto at = [&](int i) { return i < 0 ? 0 : all[i] - (i == 0 ? level : 0); };
+        part[static_cast<std::size_t>(k)] = (weight - 1) * at(k) + gains * at(k - 1);
+      }
+      energy.input -= s * h * product_integral(part.data(), order, v, order);
+    }
     if (of_.damper > 0) energy.damped += of_.damper * h * product_integral(v, order, v, order);
     if (of_.driven) energy.input += h * product_integral(motion.demand(), order, v, order);
     if (of_.driven || of_.spring.pendulum) {

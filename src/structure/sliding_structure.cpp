@@ -182,6 +182,7 @@ class StructureRun {
     state.sliding_distance = options_.sliding_distance;
     state.heat = options_.heat;
     check_start(system_, state, "integrate");
+    if constexpr (MemoryLaw<Law>) detail::remember(detail::with_memory(law_, detail::interface_of(state)), state);
     return state;
   }
 
@@ -220,7 +221,9 @@ class StructureRun {
   }
 
   double kinetic(const State& state) const { return energy_of(of_, state).first; }
-  double elastic(const State& state) const { return energy_of(of_, state).second; }
+  double elastic(const State& state) const {
+    return energy_of(of_, state).second + detail::elastic(law_, detail::interface_of(state));
+  }
 
   void finish(State&& state, Response& response) const {
     if (!detail::finite(state)) detail::refuse_overflow(response.peak);

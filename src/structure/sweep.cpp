@@ -119,6 +119,7 @@ class SweptInterface {
   // What can be held, a little less than that, and the pull of the spring, without vertical motion and its range.
   void hold_from_here() { hold_from_here(stuck_.largest_weight()); }
   void hold_from_here(double heaviest) {
+    heaviest_ = heaviest;
     levels_ = stuck_levels(of_, law_, state_, heaviest);
     const double x = state_.displacement;
     pull_ = of_.spring.stiffness * x;
@@ -129,7 +130,10 @@ class SweptInterface {
   }
   bool holds(double lowest, double highest, double least_weight) const {
     constexpr double gap = 0x1p-40;
-    const auto level = [&](double full) { return weigh(least_weight, full) * (1 - gap); };
+    // The springs of a law can make a level negative.
+    const auto level = [&](double full) {
+      return full > 0 ? weigh(least_weight, full) * (1 - gap) : heaviest_ * full * (1 + gap);
+    };
     return highest - pull_low_ <= level(levels_.forward) && lowest - pull_high_ >= -level(levels_.backward);
   }
   bool holds(const StuckSpan& span) const {
@@ -222,7 +226,7 @@ class SweptInterface {
   std::size_t at_ = 0;  // the segment that comes next
   // While it is stuck: the modes and their rates beside the StuckMotion, a bound of their demand, and what holds.
   Eigen::VectorXd deviation_;
-  double bound_ = 0, pull_ = 0, pull_low_ = 0, pull_high_ = 0;
+  double bound_ = 0, pull_ = 0, pull_low_ = 0, pull_high_ = 0, heaviest_ = 1;
   StuckLevels levels_{};
 };
 

@@ -165,10 +165,16 @@ StateOf<Law> with_memory(const Law& law, const State& state) {
   return begins;
 }
 
+/// A law that holds energy in springs of its own.
+template <class Law>
+concept LawWithSprings = requires(const Law& law, const State& state) {
+  { law.elastic(state) } -> std::convertible_to<double>;
+};
+
 /// The energy in the springs of a law itself, per unit mass [m^2/s^2].
 template <FrictionLaw Law>
 double elastic(const Law& law, const State& state) {
-  if constexpr (requires { law.elastic(state); })
+  if constexpr (LawWithSprings<Law>)
     return law.elastic(state);
   else
     return 0;

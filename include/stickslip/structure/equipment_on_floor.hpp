@@ -18,7 +18,7 @@ class EquipmentOnFloor : public SlidingStructure {
   /// @param floor      counted from 1, the lowest
   /// @param mass       m_e [kg], finite and at least 0; with `from_modes`, as a fraction of the total mass of the
   /// structure
-  /// @throws std::invalid_argument  naming the value; a slope; a law of numbers, or a MultiPendulum
+  /// @throws std::invalid_argument  naming the value; a slope; a law of numbers
   EquipmentOnFloor(AnySlider slider, Structure structure, std::ptrdiff_t floor, double mass = 0);
 
   std::ptrdiff_t floor() const noexcept { return floor_; }

@@ -17,7 +17,7 @@ class IsolatedStructure : public SlidingStructure {
   /// @param slider     law, spring, damper and stops per unit mass of base and structure, on level ground
   /// @param structure  with matrices
   /// @param base_mass  [kg], positive and finite
-  /// @throws std::invalid_argument  naming the value; a slope; a law of numbers, or a MultiPendulum
+  /// @throws std::invalid_argument  naming the value; a slope; a law of numbers
   IsolatedStructure(AnySlider slider, Structure structure, double base_mass);
 
   /// @param structure  made by Structure::from_modes, whose mass fractions leave the mass of the base

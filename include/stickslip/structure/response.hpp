@@ -17,7 +17,8 @@ struct StructureState {
   double sliding_distance = 0;               ///< so far [m]; updated only if the law depends on it
   std::vector<double> modal_displacement{};  ///< in the modes of Structure::modes [m kg^(1/2); with from_modes m]
   std::vector<double> modal_velocity{};      ///< their rates
-  SurfaceHeat heat{};  ///< left in the sliding surface; updated only if the law depends on its temperature
+  SurfaceHeat heat{};         ///< left in the sliding surface; updated only if the law depends on its temperature
+  PendulumMemory pendulum{};  ///< where the elements of a MultiPendulum are
 };
 
 /// A point of the motion of an interface.

@@ -129,14 +129,13 @@ class EngineOf final : public Engine {
 
  private:
   static constexpr LawTraits traits() noexcept {
-    LawTraits of{.constant = form_of<Law> == Form::constant,
-                 .coulomb = std::same_as<Law, Coulomb>,
-                 .position = PositionLaw<Law>,
-                 .closed_work = LawWithWork<Law>,
-                 .memory = MemoryLaw<Law>,
-                 .heated = HeatedLaw<Law>};
-    if constexpr (requires(const Law& law, const State& state) { law.elastic(state); }) of.springs = true;
-    return of;
+    return {.constant = form_of<Law> == Form::constant,
+            .coulomb = std::same_as<Law, Coulomb>,
+            .position = PositionLaw<Law>,
+            .closed_work = LawWithWork<Law>,
+            .memory = MemoryLaw<Law>,
+            .heated = HeatedLaw<Law>,
+            .springs = LawWithSprings<Law>};
   }
   void record(const GroundMotion& motion, Contact contact, State& state, Recorder& recorder,
               const HistorySpans& histories) const override;
