@@ -178,12 +178,21 @@ bool settle(const PlanarSlider<Law>& slider, PlanarState& state, Go&& go) {
     if (state.mode != PlanarMode::stuck && !(hold(slider.law(), 0, Direction::forward) > 0)) longest = 0;
   const double wn = slider.natural_frequency();
   double scale = wn > 0 ? norm(state.velocity) / wn : 0;  // of the displacement [m]
+  // As on one axis.
+  const double weight = standard_gravity * std::sin(slider.slope()), stiffness = slider.stiffness();
+  const double lowest = slider.mounting().stops.forward();
+  const auto energy = [&] {
+    const Vector2 stretched = state.displacement - Vector2{stiffness > 0 ? weight / stiffness : 0, 0};
+    return (dot(state.velocity, state.velocity) + stiffness * dot(stretched, stretched)) / 2 +
+           (weight > 0 && !(stiffness > 0) ? weight * (lowest - state.displacement.axis) : 0);
+  };
   for (double duration = 1; duration <= longest; duration *= 2) {
     const Vector2 from = state.displacement;
-    const double speed = norm(state.velocity);
+    const double speed = norm(state.velocity), before = energy();
     go(duration);
     if (state.in_flight) continue;
     if (state.mode == PlanarMode::stuck) return false;
+    if (rings_on(before, energy(), duration, longest)) break;
     // A damper above the critical one lets a slider creep, too.
     if (!PositionLaw<Law> || slider.damping() > 0) {
       scale = std::max(scale, std::max(norm(from), norm(state.displacement)));

@@ -40,6 +40,7 @@ namespace detail {
 /// spring or where friction vanishes at rest. It is at rest when x no longer changes, but by round-off, and its speed
 /// is negligible beside the spring or, without one, has at least halved meanwhile.
 /// @return whether it crept to rest, without an event
+/// @throws ConvergenceError  the slider keeps moving, or loses too little energy to rest before the longest duration
 template <class Go>
 bool settle(const Engine& engine, State& state, Go&& go) {
   double longest = 0x1p40;  // [s], about 35,000 years
@@ -49,11 +50,20 @@ bool settle(const Engine& engine, State& state, Go&& go) {
   }
   const double wn = engine.mounting().natural_frequency;
   double scale = wn > 0 ? std::abs(state.velocity) / wn : 0;  // of the displacement [m]
+  // Above that at rest without friction: where the spring holds the weight, or at the stop downhill.
+  const double weight = standard_gravity * std::sin(engine.mounting().slope());
+  const double stiffness = engine.mounting().stiffness(), lowest = engine.mounting().stops.forward();
+  const auto energy = [&] {
+    const double x = state.displacement, stretched = x - (stiffness > 0 ? weight / stiffness : 0);
+    return state.velocity * state.velocity / 2 + engine.elastic(state) + stiffness * stretched * stretched / 2 +
+           (weight > 0 && !(stiffness > 0) ? weight * (lowest - x) : 0);
+  };
   for (double duration = 1; duration <= longest; duration *= 2) {
-    const double from = state.displacement, speed = std::abs(state.velocity);
+    const double from = state.displacement, speed = std::abs(state.velocity), before = energy();
     go(duration);
     if (state.in_flight) continue;
     if (state.mode == Mode::stuck) return false;
+    if (rings_on(before, energy(), duration, longest)) break;
     if (engine.law().position) continue;
     scale = std::max(scale, std::max(std::abs(from), std::abs(state.displacement)));
     const bool rests = std::abs(state.velocity) <= (wn > 0 ? 0x1p-40 * wn * scale : speed / 2);

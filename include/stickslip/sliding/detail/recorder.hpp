@@ -23,6 +23,11 @@ namespace stickslip::detail {
 /// Maximum number of events in a motion. Without a spring there are at most five per segment.
 constexpr std::size_t max_events(std::size_t segments) noexcept { return 1'000'000 + 8 * segments; }
 
+/// Whether an energy falls too little within a duration to vanish before the longest one. After many cycles only.
+inline bool rings_on(double before, double after, double duration, double longest) noexcept {
+  return duration >= 8192 && before - after < before * (duration / longest);
+}
+
 [[noreturn, gnu::noinline]] inline void refuse_more_events(std::size_t event_limit,
                                                            double time = std::numeric_limits<double>::quiet_NaN()) {
   throw ConvergenceError(
