@@ -928,6 +928,8 @@ act.)")
                                            ? "StructureResponse: sensitivities of structures are not covered"
                                            : "'StructureResponse' object has no attribute '" + name + "'");
            })
+      .def("animate", animation(), py::kw_only(), py::arg("time") = py::none(), py::arg("speed") = 1.0,
+           py::arg("fps") = 15.0, py::arg("title") = py::none(), py::arg("size") = py::none(), animation_doc)
       .def("plot", plot_in("plot_structure_response", "figure"), py::kw_only(), py::arg("figure") = py::none(),
            py::arg("title") = py::none(),
            R"(Plot the displacement of the interface over time, and the peaks of the floors by height.
