@@ -189,6 +189,11 @@ ValueError
     A period, a damping ratio or a kind that is not allowed (names its index); a truncated response; an acceleration at
     period 0 of a response with impacts, which is infinite.
 
+Warns
+-----
+PlausibilityWarning
+    A period of 60 s or more, which may be in ms.
+
 Notes
 -----
 Accurate to round-off: some 1e-15 times the square root of the number of samples, and times the radians in a time step
