@@ -54,6 +54,7 @@ inline constexpr double root_of_1000 = 31.622776601683793;
 inline constexpr std::array ranges{
     // Rock joints have at most 2.5, tan 68 degrees.
     PlausibleRange{"coefficient of friction", "", 0, 3.01, 0.01, 1.5, "surfaces", {in_percent}, given, nothing_slips},
+    PlausibleRange{"slip level", "m/s^2", 0, 50.5, 0.05, 15, "surfaces", {{{"it is in cm/s^2", 0.01}}}, given, nothing_slips * standard_gravity},
     PlausibleRange{"pressure", "Pa", 1e5, 1e9, 1e6, 1e8, "bearings",
                    {{{"it is in MPa", 1e6}, {"it is in kPa", 1e3}, {"it is in psi", 6894.757}}}},
     PlausibleRange{"rate", "s/m", 2, 1000, 10, 300, "liners",
@@ -100,6 +101,9 @@ inline constexpr std::array ranges{
     PlausibleRange{"spectral density", "m^2/s^3", 0, 50, 1e-4, 1, "earthquakes", {{{"it is in cm^2/s^3", 1e-4}}}},
     PlausibleRange{"frequency in Hz", "Hz", 0, 100, 0.05, 50, "earthquakes",
                    {{{"it is in rad/s", 0.5 / std::numbers::pi}}}},
+    PlausibleRange{"pulses or cycles of a motion", "", 0, 1e4 * (1 + 1e-9), 1, 5000, "earthquakes",
+                   {{{"the duration is in ms", 1e-3}}}, computed},
+    PlausibleRange{"time in an earthquake", "s", 0, 3600, 0.1, 600, "earthquakes", {in_ms}},
     PlausibleRange{"ratio of components", "", 0, 10, 0.1, 2, "ground motions", {in_percent}},
     // What is above 3 g is nearly always in other units. (The largest acceleration ever recorded is some 4 g.)
     PlausibleRange{"peak of a record", "m/s^2", 1e-4, 29.4, 1e-4, 29.4, "recorded earthquakes", {}, computed, always_odd, "check the units"},

@@ -404,7 +404,10 @@ inline double slip_level_of(std::optional<double> mu, std::optional<double> slip
                                 (mu ? "both (" + mu_name + " = " + detail::shortest(*mu) + ", " + level_name + " = " +
                                           detail::shortest(*slip_level) + " m/s^2)"
                                     : "neither"));
-  if (!mu) return *slip_level;
+  if (!mu) {
+    check_unit("slip level", law, level_name, *slip_level);
+    return *slip_level;
+  }
   detail::require(std::isfinite(*mu) && *mu >= 0, law + ": " + mu_name + " must be finite and at least 0", *mu);
   check_unit("coefficient of friction", law, mu_name, *mu);
   return *mu * standard_gravity;

@@ -21,17 +21,18 @@ inline auto csv_in(const char* module, const char* function) {
 
 /// The method that shows a response as a picture that moves, and its documentation.
 inline auto animation() {
-  return [](const py::object& self, const py::object& time, double speed, double fps, const py::object& title) {
+  return [](const py::object& self, const py::object& time, double speed, double fps, const py::object& title,
+            const py::object& size) {
     return py::module_::import("stickslip.plotting")
         .attr("animate")(self, py::arg("time") = time, py::arg("speed") = speed, py::arg("fps") = fps,
-                         py::arg("title") = title);
+                         py::arg("title") = title, py::arg("size") = size);
   };
 }
 inline constexpr const char* animation_doc = R"(Show the object sliding on its moving floor, with its history below.
 
 Needs matplotlib. Takes `time`, the begin and end of the part to show [s], `speed`, seconds of the motion in a second of
-the animation, `fps`, frames in a second, and `title`. Returns an animation: a notebook shows it, its `write` saves it as
-.gif, .mp4 or .html; see `stickslip.plotting.animate`.)";
+the animation, `fps`, frames in a second, `title`, and `size`, width and height [inches]. Returns an animation: a
+notebook shows it, its `write` saves it as .gif, .mp4 or .html; see `stickslip.plotting.animate`.)";
 
 /// The method that plots loops of force over displacement, and its documentation.
 inline auto hysteresis() {

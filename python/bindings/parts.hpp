@@ -131,7 +131,8 @@ inline constexpr auto parts<VelocitySpectrum> = std::tuple(&VelocitySpectrum::om
                                                            &VelocitySpectrum::error);
 template <>
 inline constexpr auto parts<ResponseSpectrum> = std::tuple(&ResponseSpectrum::kind, &ResponseSpectrum::periods,
-                                                           &ResponseSpectrum::damping, &ResponseSpectrum::values);
+                                                           &ResponseSpectrum::damping, &ResponseSpectrum::values,
+                                                           &ResponseSpectrum::name);
 template <>
 inline constexpr auto parts<StrongMotion> =
     std::tuple(&StrongMotion::peak_acceleration, &StrongMotion::peak_velocity, &StrongMotion::peak_displacement,

@@ -193,7 +193,8 @@ ValueError
 Warns
 -----
 PlausibilityWarning
-    A slope of less than one degree, which may be in radians.
+    A slope of less than one degree, which may be in radians; a period of 60 s or more, which may be in ms; a
+    damping_ratio from 2 to 100, which may be in percent.
 
 Notes
 -----
@@ -243,6 +244,11 @@ Raises
 ------
 ValueError
     A value out of range; a slider that already has a spring or damper.
+
+Warns
+-----
+PlausibilityWarning
+    A cup_radius of 20 m or more, or a wheel_radius of 3 m or more, which may be in mm, cm or inches.
 
 Notes
 -----

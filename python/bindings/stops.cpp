@@ -27,7 +27,12 @@ backward : float, optional
 Raises
 ------
 ValueError
-    A value out of range.)")
+    A value out of range.
+
+Warns
+-----
+PlausibilityWarning
+    A distance of 3 m or more, which may be in mm, cm or inches.)")
       .def(py::init([](double gap, double restitution, std::optional<double> backward) {
              check_unit("length", "Stops", "gap", gap);
              check_unit("length", "Stops", "backward", backward);

@@ -34,7 +34,12 @@ Slider
 Raises
 ------
 ValueError
-    A value out of range.)");
+    A value out of range.
+
+Warns
+-----
+PlausibilityWarning
+    A damping or natural_frequency of 10,000 or more.)");
 }
 
 }  // namespace stickslip::python

@@ -1185,6 +1185,7 @@ class Response(metaclass=_Pybind11Type):
         speed: _Number = 1.0,
         fps: _Number = 15.0,
         title: str | None = None,
+        size: tuple[float, float] | None = None,
     ) -> Animation: ...
     @overload
     def plot(
@@ -1312,6 +1313,7 @@ class PlanarResponse(metaclass=_Pybind11Type):
         speed: _Number = 1.0,
         fps: _Number = 15.0,
         title: str | None = None,
+        size: tuple[float, float] | None = None,
     ) -> Animation: ...
     @overload
     def plot(
@@ -1682,6 +1684,8 @@ class Moments(metaclass=_Pybind11Type):
 
 class ResponseSpectrum(metaclass=_Pybind11Type):
     def __init__(self, *args: object, **kwargs: object) -> NoReturn: ...
+    @property
+    def name(self) -> str: ...
     @property
     def kind(self) -> _SpectrumKind: ...
     @property
@@ -2680,6 +2684,15 @@ class StructureResponse(metaclass=_Pybind11Type):
     def remark(self) -> str: ...
     @property
     def components(self) -> str: ...
+    def animate(
+        self,
+        *,
+        time: tuple[float, float] | None = None,
+        speed: _Number = 1.0,
+        fps: _Number = 15.0,
+        title: str | None = None,
+        size: tuple[float, float] | None = None,
+    ) -> Animation: ...
     @overload
     def plot(self, *, figure: None = None, title: str | None = None) -> Figure: ...
     @overload

@@ -238,7 +238,10 @@ ResponseSpectrum spectrum_of(const std::vector<detail::SegmentRow>& rows, double
 ResponseSpectrum response_spectrum(const GroundMotion& motion, std::vector<double> periods, std::vector<double> damping,
                                    SpectrumKind kind) {
   check(periods, damping);
-  return spectrum_of(rows_of(motion), motion.peak_acceleration(), std::move(periods), std::move(damping), kind);
+  ResponseSpectrum result =
+      spectrum_of(rows_of(motion), motion.peak_acceleration(), std::move(periods), std::move(damping), kind);
+  result.name = motion.name();
+  return result;
 }
 
 ResponseSpectrum response_spectrum(const std::vector<Segment>& motion, std::vector<double> periods,

@@ -330,7 +330,10 @@ void advance(const SlidingStructure& system, const LoadSegment& segment, Structu
     detail::LawExpansion expansion(system.modal(), law, segment.duration);
     detail::move_structure(system.modal(), law, segment, moved, expansion, none);
   });
-  if (!detail::finite(moved)) throw std::overflow_error("advance: the motion leaves the range of doubles");
+  if (!detail::finite(moved))
+    throw std::overflow_error(
+        "advance: the motion leaves the range of doubles, from x = " + detail::shortest(state.displacement) +
+        " m, x' = " + detail::shortest(state.velocity) + " m/s");
   state = std::move(moved);
 }
 

@@ -25,6 +25,8 @@ inline constexpr char laplace_unequal_range[] =
 
 /// Fraction of the variance of the ground acceleration below the natural frequency of the spring.
 inline constexpr double quasi_static_fraction = 0.25;
+/// Damping ratio of the soil above which the velocity is less accurate, and the largest one measured.
+inline constexpr double damped_soil = 0.9, most_damped_soil = 1.5;
 inline constexpr char stationary_range[] =
     "without a spring, or on one whose natural frequency exceeds those of at most a quarter of the variance of the "
     "ground acceleration, the standard deviation of the velocity is right within 16 % from sigma_n / a = 1.2 on, "

@@ -171,14 +171,34 @@ double variance_below(const Spectrum& spectrum, double frequency) {
          spectrum.variance();
 }
 
+/// The damping ratio of the filter that stands for the soil; 0 without one.
+double soil_damping(const Spectrum& spectrum) {
+  const auto damping = []<class Form>(const Form& form) -> double {
+    if constexpr (requires { form.damping; })
+      return form.damping;
+    else
+      return 0;
+  };
+  return std::visit(damping, spectrum.form());
+}
+
 std::string remark_of(double ratio, const Spectrum& spectrum, double wn, double low_power) {
   std::string remark;
   const auto add = [&](const std::string& more) { remark += (remark.empty() ? "" : "; ") + more; };
   if (ratio < 1.5 * critical) add(shown(ratio) + " is near sqrt(2/pi), thesis (4.22): velocities may be far too low");
+  std::string outside;
+  const auto leave = [&](const std::string& why) { outside += (outside.empty() ? "" : " and ") + why; };
   if (const double below = wn > 0 && std::isfinite(ratio) ? variance_below(spectrum, wn) : 0;
       below > detail::quasi_static_fraction)
-    add("the natural frequency of the spring exceeds those of " + detail::shortest(std::round(100 * below)) +
-        " % of the variance of the ground acceleration: " + detail::stationary_range);
+    leave("the natural frequency of the spring exceeds those of " + detail::shortest(std::round(100 * below)) +
+          " % of the variance of the ground acceleration");
+  if (const double soil = soil_damping(spectrum); soil > detail::most_damped_soil)
+    leave("the damping ratio of the soil, " + detail::shortest(soil) + ", exceeds " +
+          detail::shortest(detail::most_damped_soil) + ", the largest one measured");
+  else if (soil > detail::damped_soil)
+    leave("the damping ratio of the soil, " + detail::shortest(soil) + ", exceeds " +
+          detail::shortest(detail::damped_soil));
+  if (!outside.empty()) add(outside + ": " + detail::stationary_range);
   if (wn == 0 && low_power > 0 && std::isfinite(ratio))
     add("no acceleration at zero frequency: under friction the displacement drifts all the same");
   return remark;

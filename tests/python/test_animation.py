@@ -2,6 +2,8 @@
 
 import json
 import re
+import shutil
+import subprocess
 import xml.etree.ElementTree
 
 import numpy as np
@@ -47,6 +49,69 @@ def test_the_object_is_where_the_response_is(name):
         assert middle(body) - middle(floor) == pytest.approx(x, abs=1e-9)
         ground.append(middle(floor))
     assert np.ptp(ground) > 0.01
+
+
+BUILDING = ss.Structure.shear_building(
+    masses=[2e5, 2e5, 1.6e5], stiffnesses=[2.4e8, 2e8, 1.6e8], damping_ratio=0.03
+)
+STOPS = ss.Stops(gap=0.03, restitution=0.3)
+STRUCTURES = {
+    "isolated": ss.IsolatedStructure(
+        ss.Slider(ss.Coulomb(mu=0.05), stops=STOPS), BUILDING, base_mass=2e5
+    ),
+    "equipment": ss.EquipmentOnFloor(ss.Coulomb(mu=0.1), BUILDING, floor=2),
+    "base alone": ss.IsolatedStructure(
+        ss.Coulomb(mu=0.05),
+        ss.Structure.from_modes(mass_fractions=[0.7], frequencies=[8.0], damping_ratios=[0.05]),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", STRUCTURES)
+def test_floors_and_what_slides_are_where_the_response_is(name, tmp_path):
+    r = ss.integrate(STRUCTURES[name], QUAKE)
+    animation = r.animate(fps=10, size=(5, 4))
+    assert animation._fig.get_size_inches() == pytest.approx((5, 4))
+    scene = animation._fig.axes[0]
+    floors = [p for p in scene.patches if p.get_zorder() == 3 and p.get_label() != "stop"]
+    (body,) = (p for p in scene.patches if p.get_zorder() == 4)
+    mark = scene.patches[1]
+    assert len(floors) == (0 if name == "base alone" else 3)
+
+    def middle(patch):
+        box = scene.transData.inverted().transform_bbox(patch.get_window_extent())
+        return (box.x0 + box.x1) / 2
+
+    for i in (0, 7, 15):
+        animation._func(i)
+        t = animation._film.times[i]
+        x = np.interp(t, r.time, r.displacement)
+        base = 0 if name == "equipment" else x
+        u = [np.interp(t, r.time, one) for one in r.floors.displacement.T] if floors else []
+        for floor, moved in zip(floors, u):
+            assert middle(floor) - middle(mark) == pytest.approx(base + moved, abs=1e-9)
+        on = u[1] if name == "equipment" else 0
+        assert middle(body) - middle(mark) == pytest.approx(on + x, abs=1e-9)
+    assert ("stop" in [p.get_label() for p in scene.patches]) == (name == "isolated")
+    page = animation.write(tmp_path / "a.html").read_text()
+    assert "<svg" in page and len(page) < 400_000
+
+
+def test_a_slope_has_no_floors_to_show():
+    slope = ss.FlexibleSlope(ky_g=0.1, height=50, shear_velocity=600, damping_ratio=0.15)
+    with pytest.raises(ValueError, match="got a flexible slope"):
+        ss.integrate(slope, QUAKE).animate()
+
+
+def test_a_movie_shows_the_progress_of_its_frames(tmp_path, capsys):
+    film = ss.integrate(SLIDERS["block"], QUAKE).animate(time=(0, 1), fps=5)
+    told = []
+    film.write(tmp_path / "a.gif", progress=lambda done, total: told.append((done, total)))
+    assert told == [(i, 6) for i in range(1, 7)]
+    film.write(tmp_path / "a.gif", progress=True)
+    assert "6 of 6 frames" in capsys.readouterr().err
+    film.write(tmp_path / "a.gif")
+    assert capsys.readouterr().err == ""
 
 
 def test_a_bearing_is_a_dish_with_a_puck_in_it():
@@ -192,6 +257,8 @@ def test_a_page_is_one_drawing_with_the_places_of_its_parts(tmp_path, name):
     ("options", "message"),
     [
         ({"speed": 0}, "speed must be positive"),
+        ({"size": (6, 0)}, "size must be a width and a height"),
+        ({"size": 6}, "size must be a width and a height"),
         ({"fps": 100}, "fps must be from 1 to 60"),
         ({"speed": 1e-3, "fps": 60}, "frames are more than 2000"),
         ({"time": (3, 1)}, "time must be a begin and a later end"),
@@ -216,3 +283,44 @@ def test_save_writes_whole_files_and_pages(tmp_path, monkeypatch):
     with pytest.raises(OSError, match="No space"):
         film.save(tmp_path / "b.gif")
     assert [file.name for file in tmp_path.iterdir()] == ["a.html"]
+
+
+# A clock that the test moves, in place of the browser's.
+CLOCK = """<script>
+let now = 0;
+const waiting = [];
+performance.now = () => now;
+window.requestAnimationFrame = (draw) => waiting.push(draw);
+</script>"""
+WATCH = """<script>
+const seen = [];
+function wait(frames) {
+  for (let i = 0; i < frames; ++i) {
+    now += 1000 / film.fps;
+    for (const draw of waiting.splice(0)) draw(now + 1);
+    seen.push(clock.textContent);
+  }
+}
+wait(9);
+button.click(); wait(2);
+slider.value = 4; slider.dispatchEvent(new Event("input")); wait(1);
+button.click(); wait(4);
+document.body.innerHTML = `<output>${seen.join(" ")}</output>`;
+</script>"""
+
+
+@pytest.mark.slow
+def test_a_page_plays_again_and_again(tmp_path):
+    browser = shutil.which("chromium")
+    if browser is None:
+        pytest.skip("needs chromium")
+    film = ss.integrate(SLIDERS["block"], QUAKE).animate(time=(0, 1), fps=5)
+    file = film.write(tmp_path / "a.html")
+    page = file.read_text()
+    file.write_text(page.replace("<script>", CLOCK + "<script>").replace("</html>", WATCH))
+    command = [browser, "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", file.as_uri()]
+    shown = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    seen = re.search("<output>(.*)</output>", shown)[1].replace(" s", "").split()
+    played = ["0.20", "0.40", "0.60", "0.80", "1.00", "1.00", "0.20", "0.40", "0.60"]
+    paused, moved, again = ["0.60"] * 2, ["0.80"], ["1.00", "1.00", "0.20", "0.40"]
+    assert seen == played + paused + moved + again

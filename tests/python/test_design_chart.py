@@ -86,6 +86,12 @@ def test_what_no_chart_can_show_is_refused():
     chart = ss.design_chart(SUITE[:2], [0.1, 0.2], pga_g=[0.4, 0.8])
     (axes,) = chart.plot("residual").axes
     assert [text.get_text() for text in axes.get_legend().get_texts()] == ["0.4 g", "0.8 g"]
+    assert axes.get_title(loc="left") == "Residual displacement of a block under scaled records"
+    ends = "a line ends where the block does not slide"
+    assert ends not in [text.get_text() for text in axes.texts]
+    (axes,) = ss.design_chart(SUITE[:2], [0.1, 0.9], pga_g=[0.4]).plot(title="mine").axes
+    assert axes.get_title(loc="left") == "mine"
+    assert ends in [text.get_text() for text in axes.texts]
 
 
 def test_the_scatter_is_that_of_the_regression():

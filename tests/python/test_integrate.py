@@ -140,6 +140,39 @@ def test_the_two_levels_of_a_block_act_each_in_its_direction():
     assert counts(r) == (1, 0, 3)
 
 
+NEXT_TO_NOTHING = {
+    "pendulum": ss.FrictionPendulum(radius=2, mu=1e-300),
+    "surfaces": ss.TriplePendulum([0.3, 1.8, 2.6], [1e-300] * 3, [0.09, 0.22, 0.31]),
+    "caster": ss.Slider(ss.Caster(mu=1e-300, reach=1), natural_frequency=2),
+    "slope": ss.Slider(ss.Coulomb(mu=1e-300), natural_frequency=2, slope_degrees=5),
+    "stops": ss.Slider(ss.Coulomb(mu=1e-300), stops=ss.Stops(gap=0.1, restitution=1)),
+    "plane": ss.PlanarSlider(ss.Coulomb(mu=1e-300), 2),
+    "plane, slope": ss.PlanarSlider(ss.Slider(ss.Coulomb(mu=1e-300), 2, slope_degrees=5)),
+}
+
+
+@pytest.mark.parametrize("name", NEXT_TO_NOTHING)
+def test_what_friction_cannot_stop_is_found_by_its_energy(name):
+    """Not by the limit of events, a million of them later."""
+    t = np.arange(0, 2, 0.02)
+    pair = ss.GroundMotion(2 * np.sin(6 * t), dt=0.02, transverse=np.cos(3 * t))
+    with pytest.raises(ss.ConvergenceError, match="does not come to rest") as refusal:
+        ss.integrate(NEXT_TO_NOTHING[name], pair, settle=True)
+    assert "events" not in str(refusal.value)
+
+
+@pytest.mark.parametrize("degrees", [0.0, 5.0])
+def test_little_friction_stops_a_slider_after_all_its_cycles(degrees):
+    """Each half cycle takes 2 a / wn^2 of the amplitude: some 25,000 of them, over 40,000 s."""
+    slider = ss.Slider(ss.Coulomb(slip_level=1e-5), natural_frequency=2, slope_degrees=degrees)
+    center = ss.STANDARD_GRAVITY * math.sin(math.radians(degrees)) / 4
+    motion = ss.GroundMotion([0, 0], dt=1)
+    r = ss.integrate(slider, motion, displacement=center + 0.125, settle=True)
+    level = 1e-5 * math.cos(math.radians(degrees))
+    assert len(r.events) == pytest.approx(0.125 * 4 / (2 * level), abs=4)
+    assert abs(r.residual - center) <= level / 4 * (1 + 1e-6)
+
+
 @pytest.mark.parametrize("start, escape, stop", tuples("casters", "escapes"))
 def test_a_caster_stops_below_its_escape_velocity_and_never_above(start, escape, stop):
     law, still = ss.Caster(slip_level=1.0, reach=0.5), line(0, 0, 1)

@@ -313,6 +313,24 @@ def test_a_spring_stiffer_than_the_ground_is_fast_is_remarked():
     assert SL().predict(block, 1.0).remark == ""  # white noise
 
 
+def test_a_soil_damped_more_than_was_measured_is_remarked():
+    """Of the filter that stands for the soil; both reasons share one sentence."""
+    block = ss.Coulomb(slip_level=1)
+    for damping, remarked in (
+        (0.6, ""),
+        (0.9, ""),
+        (1.2, "1.2, exceeds 0.9: "),
+        (1.6, "1.6, exceeds 1.5"),
+    ):
+        remark = SL().predict(block, measured.kanai_tajimi(3.0, 15.0, damping)).remark
+        assert remarked in remark and (SENTENCES["stationary_range"] in remark) == bool(remarked)
+    assert "largest one measured" in remark
+    rocky = measured.kanai_tajimi(3.0, 15.0, 1.2)
+    stiff = SL().predict(ss.Slider(block, natural_frequency=60.0), rocky).remark
+    assert "exceeds those of" in stiff and " and the damping ratio of the soil" in stiff
+    assert stiff.count(SENTENCES["stationary_range"]) == 1
+
+
 def test_friction_that_holds_under_an_envelope_is_told_by_zeros():
     soil = ss.Spectrum.kanai_tajimi(s0=0.25, frequency=9.0, damping=0.4)
     fading = ss.Envelope(build_up=4, strong_duration=6, decay_rate=0.3)

@@ -1,5 +1,6 @@
 """Arguments in a likely wrong unit warn, usual ones never do; slips of g for m/s^2 are remarked."""
 
+import functools
 import re
 import warnings
 
@@ -123,6 +124,7 @@ clough_penzien = spectrum(
     filter_frequency=1.5,
     filter_damping=0.6,
 )
+ROCK = clough_penzien("s0")(0.01)
 kumar = spectrum(
     ss.KumarFriction, **{**KUMAR, "static_pressure": 50e6, "temperature": 20, "rate": 100}
 )
@@ -131,6 +133,60 @@ kumar = spectrum(
 # implausible one, and the words for the likely unit; or of what is computed from several.
 ARGUMENTS = [
     ("coefficient of friction", lambda v: ss.Coulomb(mu=v), "mu", 0.3, 30, "percent, give mu=0.3"),
+    *(
+        ("slip level", make, name, 0.1, 196.1, f"cm/s^2, give {name}=1.961")
+        for make, name in (
+            (lambda v: ss.Coulomb(slip_level=v), "slip_level"),
+            (lambda v: ss.Coulomb(mu=0.1, backward=v), "backward"),
+            (lambda v: ss.Caster(slip_level=v, reach=0.1), "slip_level"),
+            (lambda v: ss.Caster(mu=0.3, reach=0.1, rolling=v), "rolling"),
+            (lambda v: ss.StaticKinetic(static=v, mu_kinetic=0), "static"),
+            (lambda v: ss.Stribeck(static=v, mu_kinetic=0, velocity=0.1, exponent=2), "static"),
+            (lambda v: ss.VelocityDependent(slow=0.1, fast=v, rate=50), "fast"),
+            (lambda v: ss.Degrading(distance=[0, 1], slip_level=[0.1, v]), "slip_level[1]"),
+            (lambda v: ss.Degrading(distance=[0], mu=[0.3], backward=[v]), "backward"),
+        )
+    ),
+    ("length", lambda v: ss.Caster(mu=0.3, reach=v), "reach", 0.12, 120, "mm, give reach=0.12"),
+    *(
+        (
+            "time in an earthquake",
+            lambda v, name=name: ss.Envelope(
+                **{"build_up": 2, "strong_duration": 8, "decay_rate": 1, name: v}
+            ),
+            name,
+            10,
+            10000,
+            f"ms, give {name}=10",
+        )
+        for name in ("build_up", "strong_duration")
+    ),
+    (
+        "time in an earthquake",
+        lambda v: ss.Envelope.from_table([0, v], [1, 0]),
+        "time[1]",
+        20,
+        20000,
+        "ms, give time[1]=20",
+    ),
+    *(
+        (
+            "pulses or cycles of a motion",
+            make,
+            "number of",
+            20,
+            20000,
+            "the duration is in ms, it is",
+        )
+        for make in (
+            lambda v: ss.HarmonicMotion(1, 6, v),
+            lambda v: ss.PoissonPulses(rate=3, half_width=0.2, sigma=2, duration=v),
+            lambda v: ss.PoissonPulses.from_earthquake(
+                rms_acceleration=1, center_frequency_hz=3, duration=v
+            ),
+            lambda v: ss.PoissonPulses.from_spectrum(ROCK, rate=3, duration=v, dt=0.02),
+        )
+    ),
     (
         "rate",
         lambda v: ss.VelocityDependent(**LINER, rate=v),
@@ -552,6 +608,9 @@ def test_each_argument_has_a_plausible_range(quantity, make, name, plausible, od
     assert "is outside" in text
     assert caught[0].filename == __file__
     assert quantity in _plausible_ranges()
+    who = text.split(":")[0].split(".")
+    warns = functools.reduce(getattr, who, ss if hasattr(ss, who[0]) else ss.regressions)
+    assert "PlausibilityWarning" in getattr(warns, "predict", warns).__doc__
 
 
 def test_each_plausible_range_is_used():
@@ -577,8 +636,10 @@ def test_values_in_use_never_warn():
     for ratio in (0, 0.02, 0.3, 0.9):
         ss.Structure.shear_building(masses=[1], stiffnesses=[1], damping_ratio=ratio)
         ss.FlexibleSlope(ky_g=min(ratio, 0.7), height=50, shear_velocity=600, damping_ratio=ratio)
-    for level in (0.01, 2, 20, 500):  # levels are in m/s^2
+    for level in (0, 0.01, 0.1, 2, 20, 50, 1000, 1e4):  # levels are in m/s^2
         ss.Coulomb(slip_level=level)
+    ss.Caster(slip_level=1, reach=1000)  # of a theory, not of a cart
+    ss.Envelope(build_up=0, strong_duration=float("inf"), decay_rate=0)
 
 
 @pytest.mark.filterwarnings("default::stickslip.PlausibilityWarning")
@@ -588,7 +649,7 @@ def test_the_command_names_the_likely_unit(tmp_path, capsys):
     command = ["slide", str(file), "--dt", "0.02", "--units", "m/s^2", "--mu", "0.1"]
     for options, likely in (
         (["--stop-gap", "10", "--restitution", "0"], "Stops: gap = 10 m .* in cm, give gap=0.1"),
-        (["--law", "caster", "--reach", "120"], "--reach: reach = 120 m .* in mm, give reach=0.12"),
+        (["--law", "caster", "--reach", "120"], "Caster: reach = 120 m .* in mm, give reach=0.12"),
         (["--period", "3000"], "Slider: period = 3000 s .* in ms, give period=3"),
     ):
         assert cli.main([*command, *options]) == 0

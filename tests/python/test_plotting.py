@@ -3,6 +3,7 @@
 import io
 import math
 import os
+import pickle
 import re
 import sys
 import xml.etree.ElementTree
@@ -32,7 +33,7 @@ SLIDERS = {
     "one-way": ss.Slider(ss.Coulomb(mu=0.1, backward=math.inf)),
     "slope": ss.Slider(ss.Coulomb(mu=0.3), slope_degrees=10),
     "caster": ss.Slider(ss.Caster(mu=0.1, reach=0.5)),
-    "heavy": ss.Slider(ss.Coulomb(slip_level=90.0)),
+    "heavy": ss.Slider(ss.Coulomb(slip_level=45.0)),
 }
 
 
@@ -371,11 +372,11 @@ def test_an_ensemble_says_what_slid(ensemble):
 
 
 def test_an_ensemble_that_never_slips_is_drawn():
-    e = ss.run_ensemble(ss.Coulomb(slip_level=90), SHAKING, members=10, seed=1)
+    e = ss.run_ensemble(ss.Coulomb(slip_level=45), SHAKING, members=10, seed=1)
     texts = [text.get_text() for text in e.plot().axes[1].texts]
     assert "none slips" in texts
     with pytest.raises(ValueError, match="two members"):
-        ss.run_ensemble(ss.Coulomb(slip_level=90), SHAKING, members=1, seed=1).plot()
+        ss.run_ensemble(ss.Coulomb(slip_level=45), SHAKING, members=1, seed=1).plot()
 
 
 def test_a_friction_sweep_shows_every_record_and_their_median():
@@ -589,6 +590,31 @@ def test_a_spectrum_has_a_title_and_an_axis_that_suits_its_periods():
     for even in (np.linspace(0.1, 4, 40), [0.0, 0.1, 0.2, 0.4], [1.0], [1.0, 1.1, 1.21]):
         (axes,) = ss.response_spectrum(quake, even).plot().axes
         assert axes.get_xscale() == "linear"
+
+
+def test_a_spectrum_says_what_carries_the_oscillators():
+    quake = motion()
+    pair = ss.GroundMotion(quake.acceleration, quake.dt, transverse=quake.acceleration, name="pair")
+    block, building = (
+        SLIDERS["spring"],
+        ss.Structure.shear_building(masses=[1], stiffnesses=[400], damping_ratio=0.05),
+    )
+    isolated = ss.integrate(ss.IsolatedStructure(ss.Coulomb(mu=0.1), building, base_mass=1), quake)
+    for spectrum, name in (
+        (ss.response_spectrum(quake, 1.0), "shaking ground"),
+        (ss.response_spectrum(quake, 1.0, direction=0), "shaking ground"),
+        (ss.response_spectrum(ss.integrate(block, quake), 1.0), "sliding mass, shaking ground"),
+        (
+            ss.response_spectrum(ss.integrate(ss.PlanarSlider(block), pair), 1.0),
+            "sliding mass, pair",
+        ),
+        (ss.response_spectrum(isolated, 1.0), "base, shaking ground"),
+        (ss.response_spectrum(isolated, 1.0, floor=1), "floor 1, shaking ground"),
+    ):
+        assert spectrum.name == name
+        (axes,) = spectrum.plot().axes
+        assert name in [text.get_text() for text in axes.texts]
+        assert pickle.loads(pickle.dumps(spectrum)) == spectrum
 
 
 def test_pictures_fit_into_figures_of_pyplot():

@@ -17,7 +17,7 @@ BUILDING = ss.Structure.shear_building(
 with warnings.catch_warnings():
     warnings.simplefilter("ignore", ss.PlausibilityWarning)
     RIGID = ss.Structure.shear_building(masses=[1], stiffnesses=[4e8], damping_ratio=0.3)
-NEVER, SLIDES = ss.Coulomb(slip_level=100), ss.Coulomb(mu=0.1)
+NEVER, SLIDES = ss.Coulomb(slip_level=1e4), ss.Coulomb(mu=0.1)
 
 
 def isolated(law, structure, quake=QUAKE):

@@ -457,6 +457,8 @@ def test_a_loop_of_ones_own() -> None:
             assert (x == r.displacement).all() and (v == r.velocity).all()
     with pytest.raises(ValueError, match=r"modal_velocity must have one value per mode, got 3 and"):
         ss.StructureState([0, 0, 0], [0, 0])
+    with pytest.raises(OverflowError, match=r"range of doubles, from x = 0 m, x' = 0 m/s$"):
+        ss.advance(ISOLATED, ISOLATED.rest(), 1.0, 1e308, -1e308)
     with pytest.raises(ValueError, match=r"advance: the state must have 3 modes, got 2"):
         ss.advance(ISOLATED, ss.StructureState([0, 0], [0, 0]), 0.1, 0)
     with pytest.raises(ValueError, match=r"StructureState: velocity must be finite"):

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "stickslip/ground/ground_motion.hpp"
@@ -23,6 +24,7 @@ struct ResponseSpectrum {
   std::vector<double> periods;  ///< undamped natural periods T [s]
   std::vector<double> damping;  ///< ratios of critical damping
   std::vector<double> values;   ///< one row of periods for each damping ratio
+  std::string name{};           ///< of the ground motion, or of what carries the oscillators
 
   double value(std::size_t damping_index, std::size_t period_index) const {
     return values[damping_index * periods.size() + period_index];

@@ -217,8 +217,7 @@ class PlaneRun {
   double settle(State& state, Recorder& recorder, Response& response) const {
     return settle_freely(*this, state, recorder, response);
   }
-  Unrest unrest(const State& state) const { return engine_.unrest(state); }
-  double level(const State& state) const { return engine_.level(state); }
+  const PlanarEngine& slider() const noexcept { return engine_; }
   void calm(double duration, State& state, PlanarSink& sink) const {
     engine_.calm(duration, options_.contact, state, sink);
   }

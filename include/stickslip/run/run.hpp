@@ -42,8 +42,7 @@ struct HistorySpansOf {
 ///     finish(state, response)            // hands over the state at the end, and where it is
 ///
 /// `integrate_run` makes a response of it. `settle_freely` is the usual `settle`: it asks for `calm(duration, state,
-/// sink)`, a motion without ground acceleration, `NoSink`, and `unrest(state)`; with `append(state, response)` it adds
-/// the samples.
+/// sink)`, a motion without ground acceleration, `NoSink`, `temperature(state)`, and `slider()` of `settle`.
 template <class Run>
 concept RunOfSystem = requires(const Run& run, typename Run::State& state, typename Run::Response& response,
                                typename Run::Recorder& recorder) {
@@ -105,10 +104,14 @@ struct Unrest {
   double natural_frequency = 0;  ///< of its spring [rad/s]
   bool endless = false;          ///< nothing slows it down
   bool creeps = false;           ///< its speed may decay exponentially and never reach zero
+  double downhill = 0;           ///< g sin(slope), along the axis [m/s^2]
+  double lowest = 0;             ///< the stop downhill [m], on a slope without a spring
 };
 
 /// Distance of a place from the origin, and size of a velocity.
 inline double norm(double x) noexcept { return std::abs(x); }
+inline double along_axis(double x) noexcept { return x; }
+inline double along_axis(Vector2 r) noexcept { return r.axis; }
 
 /// A place in messages.
 inline std::string name_of(double x) { return "x = " + shortest(x); }
@@ -118,19 +121,36 @@ inline std::string name_of(Vector2 r) { return "|r| = " + shortest(norm(r)); }
 /// friction grows with the speed, a slider may creep: on a spring, or where friction vanishes at rest. It is at rest
 /// when its place no longer changes, but by round-off, and its speed is negligible beside the spring or, without one,
 /// has at least halved meanwhile.
-/// @param level  for the message: the slip level where it is [m/s^2]
+/// @param slider  answers `unrest(state)`; `elastic(state)`, the energy of springs in its law; and, for the message,
+///                `level(state)`, the slip level [m/s^2]
 /// @return whether it crept to rest, without an event
-template <class State, class Go, class Level>
-bool settle(const Unrest& unrest, State& state, Go&& go, Level&& level) {
+/// @throws ConvergenceError  the slider keeps moving, or loses too little energy to rest before the longest duration
+template <class Slider, class State, class Go>
+bool settle(const Slider& slider, State& state, Go&& go) {
+  const Unrest unrest = slider.unrest(state);
   const double longest = unrest.endless ? 0 : 0x1p40;  // [s], about 35,000 years
   const double wn = unrest.natural_frequency;
   double scale = wn > 0 ? norm(state.velocity) / wn : 0;  // of the displacement [m]
+  // Above that at rest without friction: where the spring holds the weight, or at the stop downhill.
+  const auto energy = [&] {
+    const double speed = norm(state.velocity), far = norm(state.displacement), x = along_axis(state.displacement);
+    double sum = speed * speed / 2 + slider.elastic(state);
+    if (wn > 0) {
+      const double stretched = unrest.downhill / wn;
+      sum += (wn * far * (wn * far) - 2 * unrest.downhill * x + stretched * stretched) / 2;
+    } else if (unrest.downhill > 0) {
+      sum += unrest.downhill * (unrest.lowest - x);
+    }
+    return sum;
+  };
   for (double duration = 1; duration <= longest; duration *= 2) {
     const auto from = state.displacement;
-    const double speed = norm(state.velocity);
+    const double speed = norm(state.velocity), before = energy();
     go(duration);
     if (state.in_flight) continue;
     if (is_stuck(state)) return false;
+    // After many cycles only.
+    if (duration >= 1024 && before - energy() < before * (duration / longest)) break;
     if (!unrest.creeps) continue;
     scale = std::max(scale, std::max(norm(from), norm(state.displacement)));
     const bool rests = norm(state.velocity) <= (wn > 0 ? 0x1p-40 * wn * scale : speed / 2);
@@ -141,7 +161,7 @@ bool settle(const Unrest& unrest, State& state, Go&& go, Level&& level) {
   }
   throw ConvergenceError("without ground motion the slider does not come to rest: at " + name_of(state.displacement) +
                          " m it still moves at " + shortest(norm(state.velocity)) + " m/s, with a slip level of " +
-                         shortest(level()) + " m/s^2 there; use settle = false");
+                         shortest(slider.level(state)) + " m/s^2 there; use settle = false");
 }
 
 /// The usual `settle` of a run. The samples go on up to the first at or after the final rest, but to at most ten times
@@ -152,14 +172,11 @@ double settle_freely(const Run& run, typename Run::State& state, typename Run::R
   const auto& motion = run.motion();
   typename Run::State sampled = state;
   double end = motion.time(motion.segments()), time = end;
-  const bool crept = settle(
-      run.unrest(state), state,
-      [&](double duration) {
-        recorder.begin_segment(time, time + duration);
-        run.calm(duration, state, recorder);
-        time += duration;
-      },
-      [&] { return run.level(state); });
+  const bool crept = settle(run.slider(), state, [&](double duration) {
+    recorder.begin_segment(time, time + duration);
+    run.calm(duration, state, recorder);
+    time += duration;
+  });
   recorder.begin_segment(time, time);
   if (crept) recorder.event(EventKind::arrest, 0, state);
   end = std::max(end, recorder.last_event());

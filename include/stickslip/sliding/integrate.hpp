@@ -105,8 +105,7 @@ class AxisRun {
   double settle(State& state, Recorder& recorder, Response& response) const {
     return settle_freely(*this, state, recorder, response);
   }
-  Unrest unrest(const State& state) const { return unrest_of(engine_, state); }
-  double level(const State& state) const { return engine_.resist(state, 1, direction_of(state.mode)); }
+  const Engine& slider() const noexcept { return engine_; }
   void calm(double duration, State& state, Sink& sink) const {
     advance(engine_, Segment{duration, 0, 0}, loaded_, options_.contact, state, sink);
   }

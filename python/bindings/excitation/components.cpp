@@ -143,6 +143,11 @@ ValueError
 TypeError
     Another excitation. A user-defined excitation gives its motions a vertical component itself.
 
+Warns
+-----
+PlausibilityWarning
+    A ratio of 10 or more, which may be in percent.
+
 Notes
 -----
 The components of an earthquake are not independent, and the vertical one has more of high frequencies. This model
@@ -224,6 +229,11 @@ ValueError
     not the same PoissonPulses.
 TypeError
     Another excitation. A user-defined excitation gives its motions a transverse component itself.
+
+Warns
+-----
+PlausibilityWarning
+    A ratio of 10 or more, which may be in percent.
 
 Notes
 -----

@@ -42,16 +42,26 @@ Raises
 ValueError
     A value out of range.
 
+Warns
+-----
+PlausibilityWarning
+    A duration of an hour or more, which may be in ms.
+
 References
 ----------
 P. C. Jennings, G. W. Housner, N. C. Tsai, Simulated earthquake motions, Caltech (1968).)")
-      .def(py::init<double, double, double>(), py::kw_only(), py::arg("build_up"), py::arg("strong_duration"),
-           py::arg("decay_rate"))
+      .def(py::init([](double build_up, double strong_duration, double decay_rate) {
+             check_unit("time in an earthquake", "Envelope", "build_up", build_up);
+             check_unit("time in an earthquake", "Envelope", "strong_duration", strong_duration);
+             return Envelope(build_up, strong_duration, decay_rate);
+           }),
+           py::kw_only(), py::arg("build_up"), py::arg("strong_duration"), py::arg("decay_rate"))
       .def_static(
           "from_table",
           [](const py::object& time, const py::object& factor) {
-            return Envelope::from_table(to_vector(time, "Envelope: time", "s"),
-                                        to_vector(factor, "Envelope: factor", ""));
+            const auto times = to_vector(time, "Envelope: time", "s");
+            check_unit("time in an earthquake", "Envelope.from_table", "time", times);
+            return Envelope::from_table(times, to_vector(factor, "Envelope: factor", ""));
           },
           py::arg("time"), py::arg("factor"), R"(Interpolate linearly between given points; zero outside.
 
@@ -65,7 +75,12 @@ factor : array_like, shape (N,)
 Raises
 ------
 ValueError
-    An invalid value; the message names it and its index.)")
+    An invalid value; the message names it and its index.
+
+Warns
+-----
+PlausibilityWarning
+    A time of an hour or more, which may be in ms.)")
       .def(
           "__call__",
           [](const Envelope& self, const py::object& t) {

@@ -66,6 +66,11 @@ std::string repr_of_pulses(const py::object& self) {
   return text + ")";
 }
 
+PoissonPulses plausible_pulses(const std::string& who, PoissonPulses made) {
+  check_unit("pulses or cycles of a motion", who, "the mean number of pulses", made.rate() * made.duration());
+  return made;
+}
+
 }  // namespace
 
 void bind_poisson(py::module_& m) {
@@ -109,6 +114,12 @@ ValueError
     A value out of range; more than 3e8 steps in a motion (rate x duration x the times of the shape); a quantile
     function that is not finite or whose mean square is not 1.
 
+Warns
+-----
+PlausibilityWarning
+    A half_width of 60 s or more, which may be in ms; a sigma from 100 to 10,000 m/s^2, which may be in cm/s^2; more than
+    10,000 pulses in a motion: the duration may be in ms.
+
 Notes
 -----
 The closed forms (`variance` to `ground_displacement_variance`) are for the stationary process without envelope. Without
@@ -122,8 +133,9 @@ Thesis 5.3, 5.4, 5.6 with the errata to (5.6); Y. K. Lin, Probabilistic Theory o
                        std::optional<Envelope> envelope) {
              check_unit("period", "PoissonPulses", "half_width", half_width);
              check_unit("ground acceleration", "PoissonPulses", "sigma", sigma);
-             return PoissonPulses(rate, half_width, sigma, duration,
-                                  options_of(stationary_start, shape, std::move(quantile), std::move(envelope)));
+             return plausible_pulses("PoissonPulses",
+                                     {rate, half_width, sigma, duration,
+                                      options_of(stationary_start, shape, std::move(quantile), std::move(envelope))});
            }),
            py::kw_only(), py::arg("rate"), py::arg("half_width"), py::arg("sigma"), py::arg("duration"),
            py::arg("stationary_start") = false, py::arg("shape") = py::none(), py::arg("quantile") = py::none(),
@@ -169,9 +181,10 @@ ValueError
             const std::string who = "PoissonPulses.from_earthquake";
             check_unit("ground acceleration", who, "rms_acceleration", rms_acceleration);
             check_unit("frequency in Hz", who, "center_frequency_hz", center_frequency_hz);
-            return PoissonPulses::from_earthquake(
-                rms_acceleration, center_frequency_hz, duration, overlap,
-                options_of(stationary_start, shape, std::move(quantile), std::move(envelope)));
+            return plausible_pulses(who,
+                                    PoissonPulses::from_earthquake(
+                                        rms_acceleration, center_frequency_hz, duration, overlap,
+                                        options_of(stationary_start, shape, std::move(quantile), std::move(envelope))));
           },
           py::kw_only(), py::arg("rms_acceleration"), py::arg("center_frequency_hz"), py::arg("duration"),
           py::arg("overlap") = 0.5, py::arg("stationary_start") = false, py::arg("shape") = py::none(),
@@ -196,14 +209,20 @@ stationary_start, shape, quantile, envelope
 Raises
 ------
 ValueError
-    A value out of range.)")
+    A value out of range.
+
+Warns
+-----
+PlausibilityWarning
+    As for `PoissonPulses`, about rms_acceleration and duration; a frequency of 100 Hz or more, which may be in rad/s.)")
       .def_static(
           "from_spectrum",
           [](const Spectrum& spectrum, double rate, double duration, double dt, double tolerance, bool stationary_start,
              std::optional<py::function> quantile, std::optional<Envelope> envelope) {
-            return PoissonPulses::from_spectrum(
-                spectrum, rate, duration, dt, tolerance,
-                options_of(stationary_start, std::nullopt, std::move(quantile), std::move(envelope)));
+            return plausible_pulses("PoissonPulses.from_spectrum",
+                                    PoissonPulses::from_spectrum(spectrum, rate, duration, dt, tolerance,
+                                                                 options_of(stationary_start, std::nullopt,
+                                                                            std::move(quantile), std::move(envelope))));
           },
           py::arg("spectrum"), py::kw_only(), py::arg("rate"), py::arg("duration"), py::arg("dt"),
           py::arg("tolerance") = 1e-3, py::arg("stationary_start") = false, py::arg("quantile") = py::none(),
@@ -243,6 +262,11 @@ Raises
 ValueError
     A value out of range; a spectrum that ends below pi / dt, or is zero over a band (names the frequency); one that
     needs more than half a million steps.
+
+Warns
+-----
+PlausibilityWarning
+    More than 10,000 pulses in a motion: the duration may be in ms.
 
 Notes
 -----

@@ -129,7 +129,12 @@ raises ValueError for a value out of range. Spectra are immutable; a call return
 Parameters
 ----------
 s0 : float
-    [m^2/s^3], positive and finite.)")
+    [m^2/s^3], positive and finite.
+
+Warns
+-----
+PlausibilityWarning
+    An s0 of 50 m^2/s^3 or more, which may be in cm^2/s^3.)")
       .def_static(
           "band_pass",
           [check](double s0, double low, double high) {
@@ -144,7 +149,12 @@ Parameters
 s0 : float
     [m^2/s^3], positive and finite.
 low, high : float
-    [rad/s], 0 <= low < high, finite.)")
+    [rad/s], 0 <= low < high, finite.
+
+Warns
+-----
+PlausibilityWarning
+    As for `white`.)")
       .def_static(
           "kanai_tajimi",
           [check](double s0, double frequency, double damping) {
@@ -165,6 +175,11 @@ frequency : float
     wg [rad/s], positive and finite.
 damping : float
     z, fraction of critical damping, positive and finite.
+
+Warns
+-----
+PlausibilityWarning
+    As for `white`; a damping ratio from 2 to 100, which may be in percent.
 
 References
 ----------
@@ -191,6 +206,11 @@ filter_frequency : float
     wf [rad/s], positive and finite.
 filter_damping : float
     zf, positive and finite.
+
+Warns
+-----
+PlausibilityWarning
+    As for `kanai_tajimi`.
 
 References
 ----------

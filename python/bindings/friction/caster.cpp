@@ -31,8 +31,16 @@ rolling : float, optional
 Raises
 ------
 ValueError
-    A value out of range; both or neither of mu and slip_level.)");
+    A value out of range; both or neither of mu and slip_level.
+
+Warns
+-----
+PlausibilityWarning
+    A coefficient from 3 to 100, which may be in percent; a level from 50 to 985 m/s^2, which may be in cm/s^2; with
+    mu, a reach of 3 m or more, which may be in mm, cm or inches.)");
   type.def(py::init([](std::optional<double> mu, std::optional<double> slip_level, double reach, double rolling) {
+             if (mu) check_unit("length", "Caster", "reach", reach);  // with a level, theories have any length
+             check_unit("slip level", "Caster", "rolling", rolling);
              return Caster(slip_level_of(mu, slip_level, "Caster"), reach, rolling);
            }),
            py::kw_only(), py::arg("mu") = py::none(), py::arg("slip_level") = py::none(), py::arg("reach"),
@@ -78,6 +86,11 @@ Raises
 ------
 ValueError
     A value out of range.
+
+Warns
+-----
+PlausibilityWarning
+    A length of 3 m or more, which may be in mm, cm or inches; a coefficient from 3 to 100, which may be in percent.
 
 Notes
 -----

@@ -29,6 +29,11 @@ Raises
 ValueError
     A value out of range; both or neither of mu and slip_level; both backward and mu_backward.
 
+Warns
+-----
+PlausibilityWarning
+    A coefficient from 3 to 100, which may be in percent; a level from 50 to 985 m/s^2, which may be in cm/s^2.
+
 References
 ----------
 N. M. Newmark, Effects of earthquakes on dams and embankments, Geotechnique 15 (1965), 139-160 (one-way sliding).)");

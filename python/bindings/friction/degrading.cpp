@@ -40,6 +40,7 @@ std::vector<double> levels_of(const std::vector<Given>& arguments, const std::st
                     name + "[" + std::to_string(i) + "] must be finite and at least 0", levels[i]);
   }
   if (kind == "ky_g") check_unit("yield acceleration", "Degrading", given->name, levels);
+  if (kind == "slip_level" || kind == "backward") check_unit("slip level", "Degrading", given->name, levels);
   if (kind.starts_with("mu")) check_unit("coefficient of friction", "Degrading", given->name, levels);
   for (double& level : levels) level *= given->unit;
   return levels;
@@ -87,6 +88,12 @@ Raises
 ------
 ValueError
     A value out of its range; another number of levels than of distances; none or several of mu, ky_g and slip_level.
+
+Warns
+-----
+PlausibilityWarning
+    As for `Coulomb`; a ky_g from 0.8 to 100, which may be in m/s^2 or percent of g; a distance of 300 m or more, which
+    may be in mm, cm or inches.
 
 Notes
 -----

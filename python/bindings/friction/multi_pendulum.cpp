@@ -107,6 +107,12 @@ ValueError
     A value out of its range; lists of different lengths. In a nested bearing: an inner surface with a larger radius or
     more friction than the next outer one, or one that is at its stop before that slides.
 
+Warns
+-----
+PlausibilityWarning
+    A radius of 20 m or more, or a capacity of 3 m or more, which may be in mm, cm or inches; a coefficient from 3 to
+    100, which may be in percent.
+
 Notes
 -----
 As a law its resistance contains the springs of the elements: it may be negative. Exact to 1e-12 of the peak in closed
@@ -267,7 +273,12 @@ MultiPendulum
 Raises
 ------
 ValueError
-    As `MultiPendulum`.)");
+    As `MultiPendulum`.
+
+Warns
+-----
+PlausibilityWarning
+    As for `MultiPendulum`.)");
   def_bearing(m, "TriplePendulum", 3, true, R"(A triple friction pendulum: two outer surfaces, and an inner one twice.
 
 Parameters
@@ -289,7 +300,12 @@ MultiPendulum
 Raises
 ------
 ValueError
-    As `MultiPendulum`.)");
+    As `MultiPendulum`.
+
+Warns
+-----
+PlausibilityWarning
+    As for `MultiPendulum`.)");
   def_bearing(m, "QuintuplePendulum", 5, true,
               R"(A quintuple friction pendulum: two outer and two middle surfaces, and an inner one twice.
 
@@ -311,7 +327,12 @@ MultiPendulum
 Raises
 ------
 ValueError
-    As `MultiPendulum`.)");
+    As `MultiPendulum`.
+
+Warns
+-----
+PlausibilityWarning
+    As for `MultiPendulum`.)");
 }
 
 }  // namespace stickslip::python

@@ -23,7 +23,10 @@ Pair levels_of(const std::optional<Level>& mu, const std::optional<Level>& level
                                 (mu ? "both" : "neither"));
   const Level& given = mu ? *mu : *level;
   const Pair pair = given.index() == 0 ? Pair(std::get<0>(given), std::get<0>(given)) : std::get<1>(given);
-  if (!mu) return pair;
+  if (!mu) {
+    check_unit("slip level", "StaticKinetic", level_name, pair.first);
+    return pair;
+  }
   for (const double value : {pair.first, pair.second})
     detail::require(value >= 0, std::string("StaticKinetic: ") + mu_name + " must be at least 0", value);
   check_unit("coefficient of friction", "StaticKinetic", mu_name, pair.first);
@@ -87,6 +90,11 @@ Raises
 ------
 ValueError
     A static level below the kinetic one; a value out of its range; both or neither of a coefficient and its level.
+
+Warns
+-----
+PlausibilityWarning
+    As for `Coulomb`.
 
 Notes
 -----

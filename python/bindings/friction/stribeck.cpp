@@ -32,6 +32,11 @@ Raises
 ValueError
     A value out of range; both or neither of a coefficient and its level.
 
+Warns
+-----
+PlausibilityWarning
+    As for `Coulomb`; a velocity of 10 m/s or more, which may be in cm/s or mm/s.
+
 Notes
 -----
 The motion is integrated by Taylor series in time, nearly to round-off.

@@ -293,7 +293,13 @@ Raises
 ------
 ValueError
     No or several targets; one that is not positive and finite; `sa_g` without `period`, or the reverse; a motion of
-    zeros.)")
+    zeros.
+
+Warns
+-----
+PlausibilityWarning
+    A pga_g or sa_g of 6 or more, which may be in m/s^2; a pgv of 10 m/s or more, or an arias of 100 m/s or more, which may
+    be in cm/s; a period of 60 s or more, which may be in ms.)")
       .def("resampled", &resampled, py::arg("dt"),
            R"(Resample the motion at 0, dt, 2 dt, ... after its first sample.
 

@@ -1,5 +1,7 @@
 #include <pybind11/stl.h>
 
+#include <numbers>
+
 #include "parts.hpp"
 
 namespace stickslip::python {
@@ -8,7 +10,11 @@ namespace {
 HarmonicMotion make_harmonic_motion(double amplitude, double omega, double duration, std::optional<double> dt) {
   check_unit("ground acceleration", "HarmonicMotion", "amplitude", amplitude);
   check_unit("angular frequency", "HarmonicMotion", "omega", omega);
-  return dt ? HarmonicMotion(amplitude, omega, duration, *dt) : HarmonicMotion(amplitude, omega, duration);
+  const HarmonicMotion made =
+      dt ? HarmonicMotion(amplitude, omega, duration, *dt) : HarmonicMotion(amplitude, omega, duration);
+  check_unit("pulses or cycles of a motion", "HarmonicMotion", "the number of cycles",
+             omega * duration / (2 * std::numbers::pi));
+  return made;
 }
 
 // An array of `value(time)` at the samples.
@@ -49,6 +55,11 @@ Raises
 ------
 ValueError
     An invalid value; the message names it.
+
+Warns
+-----
+PlausibilityWarning
+    An amplitude from 100 to 10,000 m/s^2, which may be in cm/s^2; more than 10,000 cycles: the duration may be in ms.
 
 Notes
 -----

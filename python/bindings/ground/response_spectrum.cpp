@@ -59,6 +59,8 @@ void bind_response_spectrum(py::module_& m) {
       .def_property_readonly(
           "kind", [](const ResponseSpectrum& s) { return name_of(s.kind); },
           "Kind of the values, as for `response_spectrum`.")
+      .def_readonly("name", &ResponseSpectrum::name,
+                    "Name of the ground motion, or of what carries the oscillators, such as 'floor 2, Kobe'.")
       .def_property_readonly(
           "periods", [](const py::object& self) { return view(self.cast<const ResponseSpectrum&>().periods, self); },
           "Undamped natural periods [s], shape (P,); read-only.")
@@ -122,9 +124,16 @@ The values are nested lists of shape (D, P); every number reads back as the same
           const auto& ground = motion.cast<const GroundMotion&>();
           return direction == 0 ? answer(ground) : answer(rotated(ground, direction));
         }
+        const auto of_mass = [&](const py::object& spectrum) {
+          const py::object ground = motion.attr("motion");
+          const std::string name =
+              py::isinstance<GroundMotion>(ground) ? ground.cast<const GroundMotion&>().name() : std::string();
+          spectrum.cast<ResponseSpectrum&>().name = "sliding mass" + (name.empty() ? name : ", " + name);
+          return spectrum;
+        };
         if (py::isinstance<PlanarResponseWithInputs>(motion)) {
           const FloorMotion floor = floor_in_plane(motion.cast<const PlanarResponseWithInputs&>()).along(direction);
-          return answer(floor.segments, floor.impulses);
+          return of_mass(answer(floor.segments, floor.impulses));
         }
         if (direction != 0)
           throw std::invalid_argument(
@@ -138,7 +147,7 @@ The values are nested lists of shape (D, P); every number reads back as the same
         const FloorMotion floor = with_inputs(response, [&](const auto& slider, const auto& ground) {
           return floor_motion(slider, ground, response.response);
         });
-        return answer(floor.segments, floor.impulses);
+        return of_mass(answer(floor.segments, floor.impulses));
       },
       py::arg("motion"), py::arg("periods"), py::arg("damping") = 0.05, py::kw_only(),
       py::arg("kind") = "pseudo_acceleration", py::arg("direction") = 0.0,
@@ -179,6 +188,11 @@ Raises
 ValueError
     A period, a damping ratio or a kind that is not allowed (names its index); a truncated response; an acceleration at
     period 0 of a response with impacts, which is infinite.
+
+Warns
+-----
+PlausibilityWarning
+    A period of 60 s or more, which may be in ms.
 
 Notes
 -----

@@ -320,7 +320,7 @@ At a maximum of |r|, the remaining distance to the stop; at an impact with the r
 deceleration d, the distance v^2 / (2 d) over which the slider would have continued. Infinite without stops and
 slips.)")
       .def("animate", animation(), py::kw_only(), py::arg("time") = py::none(), py::arg("speed") = 1.0,
-           py::arg("fps") = 15.0, py::arg("title") = py::none(), animation_doc)
+           py::arg("fps") = 15.0, py::arg("title") = py::none(), py::arg("size") = py::none(), animation_doc)
       .def(
           "plot",
           [](const py::object& self, const py::object& figure, const py::object& title, const py::object& time) {

@@ -544,7 +544,7 @@ Needs matplotlib (`pip install stickslip[plot]`). Takes `figure`, a matplotlib F
 and `time`, the begin and end of the part to draw [s], such as (0, 25). Returns the figure, see
 `stickslip.plotting.plot_response`.)")
       .def("animate", animation(), py::kw_only(), py::arg("time") = py::none(), py::arg("speed") = 1.0,
-           py::arg("fps") = 15.0, py::arg("title") = py::none(), animation_doc)
+           py::arg("fps") = 15.0, py::arg("title") = py::none(), py::arg("size") = py::none(), animation_doc)
       .def("plot_hysteresis", hysteresis(), py::kw_only(), py::arg("figure") = py::none(),
            py::arg("title") = py::none(), py::arg("ax") = py::none(), py::arg("time") = py::none(), hysteresis_doc)
       .def("to_dataframe", in_python("stickslip._tables", "to_dataframe"),

@@ -303,7 +303,12 @@ influence : array_like, shape (n,), optional
 Raises
 ------
 ValueError
-    Naming the matrix, the entry or the eigenvalue.)",
+    Naming the matrix, the entry or the eigenvalue.
+
+Warns
+-----
+PlausibilityWarning
+    A first period outside 0.02 to 10 s: the stiffnesses may be in kN/m or MN/m, or the masses in t.)",
       &inputs_of_structure, &structure_from_inputs)
       .def(py::init([](const py::object& mass, const py::object& damping, const py::object& stiffness,
                        const py::object& influence) {
@@ -349,7 +354,12 @@ Structure
 Raises
 ------
 ValueError
-    Naming the entry; both or neither of `damping` and `damping_ratio`.)")
+    Naming the entry; both or neither of `damping` and `damping_ratio`.
+
+Warns
+-----
+PlausibilityWarning
+    As for `Structure`; a damping ratio from 1 to 100, which may be in percent.)")
       .def_static("from_modes", &plausible_structure_of_modes, py::kw_only(), py::arg("mass_fractions"),
                   py::arg("frequencies"), py::arg("damping_ratios"), py::arg("shapes") = py::none(),
                   R"(A structure that is known by some of its modes on a fixed base.
@@ -375,7 +385,13 @@ Structure
 Raises
 ------
 ValueError
-    Naming the entry.)")
+    Naming the entry.
+
+Warns
+-----
+PlausibilityWarning
+    A first period outside 0.02 to 10 s: the frequencies may be in Hz; a damping ratio from 1 to 100, which may be in
+    percent.)")
       .def_property_readonly(
           "mass", [](const Structure& s) { return array_from(s.mass()); },
           "M [kg], shape (n, n); empty with `from_modes`.")
@@ -497,6 +513,11 @@ Raises
 ValueError
     A slope; a law that is not covered; a base mass that is not positive, is missing, or is given with `from_modes`.
 
+Warns
+-----
+PlausibilityWarning
+    A base mass outside 0.005 to 200 times the mean mass of a floor: one of the masses may be in t.
+
 Examples
 --------
 >>> import stickslip as ss
@@ -588,7 +609,12 @@ D = (4/pi) (1 + gr/g) (1 - (gr/g) ln(1 + g/gr)) - 2/pi is that of Masing's rule 
 Parameters
 ----------
 reference_strain : float
-    gr, at which the modulus is half of Gmax; positive and finite.)")
+    gr, at which the modulus is half of Gmax; positive and finite.
+
+Warns
+-----
+PlausibilityWarning
+    A strain of 0.02 or more, which may be in percent.)")
       .def(py::init([](double reference_strain) {
              check_unit("reference strain", "HyperbolicSoil", "reference_strain", reference_strain);
              return HyperbolicSoil(reference_strain);
@@ -674,6 +700,12 @@ Raises
 ------
 ValueError
     A value out of range; a damping ratio together with `soil`.
+
+Warns
+-----
+PlausibilityWarning
+    A ky_g from 0.8 to 100, which may be in m/s^2 or percent of g; a damping ratio from 1 to 100, which may be in percent;
+    a velocity outside 10 to 8000 m/s, which may be in km/s or ft/s; a first period 4 H / Vs of 5 s or more.
 
 Examples
 --------
@@ -928,6 +960,8 @@ act.)")
                                            ? "StructureResponse: sensitivities of structures are not covered"
                                            : "'StructureResponse' object has no attribute '" + name + "'");
            })
+      .def("animate", animation(), py::kw_only(), py::arg("time") = py::none(), py::arg("speed") = 1.0,
+           py::arg("fps") = 15.0, py::arg("title") = py::none(), py::arg("size") = py::none(), animation_doc)
       .def("plot", plot_in("plot_structure_response", "figure"), py::kw_only(), py::arg("figure") = py::none(),
            py::arg("title") = py::none(),
            R"(Plot the displacement of the interface over time, and the peaks of the floors by height.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 import statistics
+import sys
 from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -172,9 +173,9 @@ def _slide(args: argparse.Namespace) -> str:
             if str(args.animate) in batch.figures:
                 raise ValueError("--animate shows one response, got several records")
             with batch.reported(file):
-                batch.figures.append(
-                    str(next(iter(responses.values())).animate().write(args.animate))
-                )
+                film = next(iter(responses.values())).animate()
+                seen = sys.stderr is not None and sys.stderr.isatty()
+                batch.figures.append(str(film.write(args.animate, progress=seen)))
         if args.plot and responses:
             with batch.reported(file):
                 batch.save(_figure(responses), place, found)

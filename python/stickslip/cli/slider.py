@@ -20,7 +20,6 @@ from .. import (
     Stops,
     TriplePendulum,
 )
-from .._core import _check_unit
 from .output import check_not_negative
 from .parser import StoreAll, group, number, numbers, ratio, ratios
 
@@ -242,12 +241,6 @@ def any_slider_of(args: argparse.Namespace) -> Slider | PlanarSlider:
     return PlanarSlider(slider) if args.planar else slider
 
 
-def _caster(mu: float, reach: float) -> Caster:
-    """A caster by its reach, which may be any length in theories but not of carts."""
-    _check_unit("length", "--reach", "reach", reach)
-    return Caster(mu=mu, reach=reach)
-
-
 def slider_of(args: argparse.Namespace) -> Slider:
     """The slider of the command line on one axis."""
     mu = args.mu
@@ -266,7 +259,7 @@ def slider_of(args: argparse.Namespace) -> Slider:
                 + (" and ".join(given) or "none")
             )
         law: Caster | Coulomb | MultiPendulum | StaticKinetic = (
-            _caster(mu, args.reach)
+            Caster(mu=mu, reach=args.reach)
             if given == ["--reach"]
             else Caster.from_geometry(mu=mu, trail=args.trail, wheel_width=args.wheel_width)
         )

@@ -108,6 +108,11 @@ def response_spectrum(
         that does not exist, of a structure without floors, or of something else than a structure; a
         structure that feels impacts on stops; the sliding mass of a decoupled analysis.
 
+    Warns
+    -----
+    PlausibilityWarning
+        A period of 60 s or more, which may be in ms.
+
     Notes
     -----
     Accurate to round-off: some 1e-15 times the square root of the number of samples, and times the
@@ -233,7 +238,8 @@ def _floor(response: StructureResponse, floor: int, *, vertical: bool = False) -
     if vertical and motion.vertical is not None:
         options["vertical"] = np.zeros(len(acceleration))
         options["vertical"][: len(motion)] = motion.vertical
-    return ground_motion(acceleration, name=f"floor {floor}", **options)
+    name = f"floor {floor}" if floor else "base"
+    return ground_motion(acceleration, name=f"{name}, {motion.name}".rstrip(", "), **options)
 
 
 def _base_slides(response: StructureResponse) -> bool:

@@ -12,19 +12,29 @@ from typing import Any
 
 import numpy as np
 from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon, Rectangle
 from numpy.typing import NDArray
 
-from .._core import PlanarResponse, Response, Slider
+from .._core import (
+    EquipmentOnFloor,
+    FlexibleSlope,
+    PlanarResponse,
+    Response,
+    Slider,
+    StructureResponse,
+)
 from .._files import replacing
+from .._tables import has_floors
+from ..runs.progress import Progress, shown
 from .figures import new_figure
 from .panels import near_stops
 from .planar import draw_stop, make_square, name_directions, path_of
 from .player import Film, Group
 from .styles import BLUE, GRAY, INK, PALE, VERMILION, put_title, style
-from .trajectory import window
-from .words import describe, unit_for
+from .trajectory import sticks, window
+from .words import describe, describe_system, unit_for
 
 _FRAMES = 2000  # at most
 _LATER = "#c4c4c4"  # what is still to come
@@ -44,7 +54,7 @@ class Animation(FuncAnimation):
     def _page(self) -> str:
         return self._film.page(self._fig, 1000 / self._interval)
 
-    def write(self, path: str | os.PathLike[str]) -> Path:
+    def write(self, path: str | os.PathLike[str], *, progress: bool | Progress = False) -> Path:
         """Save as an animated GIF, an MP4 or a page.
 
         Parameters
@@ -52,6 +62,9 @@ class Animation(FuncAnimation):
         path : path-like
             Its suffix is .gif (needs Pillow), .mp4 (needs ffmpeg) or .html, a page that plays one
             drawing. An existing file is replaced once the new one is whole.
+        progress : bool or callable, optional
+            Show a progress bar on stderr while the frames of a GIF or an MP4 are drawn, or call
+            ``progress(done, total)`` after each.
 
         Returns
         -------
@@ -69,7 +82,11 @@ class Animation(FuncAnimation):
         if kind == "mp4" and not FFMpegWriter.isAvailable():
             raise RuntimeError("animate: .mp4 needs the program ffmpeg; .gif and .html do not")
         with replacing(file) as stream:
-            stream.write(self._page().encode() if kind == "html" else self._movie(kind))
+            if kind == "html":
+                stream.write(self._page().encode())
+            else:
+                with shown(progress, "animate", "frames") as report:
+                    stream.write(self._movie(kind, report))
         return file
 
     def save(self, filename: str | os.PathLike[str], *args: Any, **options: Any) -> None:
@@ -79,12 +96,16 @@ class Animation(FuncAnimation):
         else:
             self.write(filename)
 
-    def _movie(self, kind: str) -> bytes:
+    def _movie(self, kind: str, report: Progress) -> bytes:
         """The content of a GIF or an MP4; matplotlib writes either into a file."""
         writer = PillowWriter if kind == "gif" else FFMpegWriter
         with tempfile.TemporaryDirectory() as folder:
             film = Path(folder) / f"film.{kind}"
-            super().save(film, writer=writer(fps=1000 / self._interval))
+            super().save(
+                film,
+                writer=writer(fps=1000 / self._interval),
+                progress_callback=lambda i, total: report(i + 1, total),
+            )
             return film.read_bytes()
 
 
@@ -96,7 +117,7 @@ def check_moving_suffix(file: Path) -> str:
 
 
 def animate(
-    response: Response | PlanarResponse,
+    response: Response | PlanarResponse | StructureResponse,
     *,
     time: tuple[float, float] | None = None,
     speed: float = 1.0,
@@ -110,11 +131,12 @@ def animate(
     pendulum draws it back. It moves by the exact displacement at each frame; the floor moves by the
     displacement of the ground, without its mean and linear trend. Both have the same scale. The
     dishes of bearings are as wide as they must be, and deeper than they are. In the plane: the path
-    as on a map, with the middle of the object on it, a circular stop near it, and north.
+    as on a map, with the middle of the object on it, a circular stop near it, and north. Of a
+    structure, the floors and what slides, along straight lines between the samples.
 
     Parameters
     ----------
-    response : Response or PlanarResponse
+    response : Response, PlanarResponse or StructureResponse
     time : tuple of float, optional
         Begin and end of the part to show [s]; default: all of the response.
     speed : float, optional
@@ -124,7 +146,8 @@ def animate(
     title : str, optional
         Default: the name of the ground motion.
     size : tuple of float, optional
-        Width and height [inches]; default: 6 x 4, and 6 x 5 in the plane.
+        Width and height [inches], positive; default: 6 x 4, and 6 x 5 in the plane and of a
+        structure.
 
     Returns
     -------
@@ -134,7 +157,7 @@ def animate(
     Raises
     ------
     ValueError
-        An argument out of range.
+        An argument out of range; a flexible slope.
     """
     if not (math.isfinite(speed) and speed > 0):
         raise ValueError(f"animate: speed must be positive and finite, got {speed}")
@@ -148,10 +171,17 @@ def animate(
             " a larger speed or a smaller fps"
         )
     times = np.linspace(begin, end, max(count, 2))
-    planar = isinstance(response, PlanarResponse)
+    draw, inches = _on_axis, (6.0, 4.0)
+    if isinstance(response, PlanarResponse):
+        draw, inches = _in_plane, (6.0, 5.0)
+    elif isinstance(response, StructureResponse):
+        if isinstance(response.system, FlexibleSlope):
+            raise ValueError("animate: draws buildings and equipment, got a flexible slope")
+        draw, inches = _of_structure, (6.0, 5.0)
+    if size is not None:
+        inches = _inches(size)
     with style():
-        draw = _in_plane if planar else _on_axis
-        figure, film = draw(response, times, title, size or ((6, 5) if planar else (6, 4)))
+        figure, film = draw(response, times, title, inches)
         film.update(0)
         # Laid out twice, for what the first changes; not at each frame, which would take longer.
         figure.draw_without_rendering()
@@ -161,6 +191,16 @@ def animate(
     animation._film = film
     animation._draw_was_started = True  # or matplotlib warns where it is not shown
     return animation
+
+
+def _inches(size: Any) -> tuple[float, float]:
+    try:
+        width, height = map(float, size)
+    except (TypeError, ValueError):
+        width = height = math.nan
+    if not (0 < width < math.inf and 0 < height < math.inf):
+        raise ValueError(f"animate: size must be a width and a height [inches], got {size!r}")
+    return width, height
 
 
 def _drift_free(values: NDArray[np.float64], t: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -238,6 +278,21 @@ def _on_axis(
     scene.axis("off")
     put_title(scene, response.motion, title, describe(slider))
 
+    film = _with_history(way, response, times, x)
+    film.groups = [on_floor, on_body]
+    on_floor.move(ground, 0 * ground)
+    on_body.move(ground + x, gap + rise)
+    if bearings:
+        film.groups.append(on_puck)
+        on_puck.move(ground + bearings.puck, bearings.lift)
+    film.body = body, [BLUE if still else VERMILION for still in stuck]
+    return figure, film
+
+
+def _with_history(
+    way: Axes, response: Any, times: NDArray[np.float64], x: NDArray[np.float64]
+) -> Film:
+    """A film that draws the displacement, x at the frames, up to each frame."""
     curve = response._curve()
     t, values = curve["time"], curve["displacement"]
     length, unit = unit_for(np.abs(x).max())
@@ -253,16 +308,77 @@ def _on_axis(
     way.set_xlim(times[0], times[-1])
     way.set_xlabel("time [s]")
     way.set_ylabel(f"relative displacement\n[{unit}]")
-
     film = Film(times)
-    film.groups = [on_floor, on_body]
-    on_floor.move(ground, 0 * ground)
-    on_body.move(ground + x, gap + rise)
-    if bearings:
-        film.groups.append(on_puck)
-        on_puck.move(ground + bearings.puck, bearings.lift)
-    film.body = body, [BLUE if still else VERMILION for still in stuck]
     film.follow(way, line, dot, points[:, 0], points)
+    return film
+
+
+def _of_structure(
+    response: Any, times: NDArray[np.float64], title: str | None, inches: tuple[float, float]
+) -> tuple[Figure, Film]:
+    figure = new_figure(*inches)
+    scene, way = figure.subplots(2, 1, height_ratios=(1.8, 1))
+    system = response.system
+    equipment = isinstance(system, EquipmentOnFloor)
+
+    def at(values: Any) -> Any:
+        return np.interp(times, response.time, values)
+
+    x, ground = at(response.displacement), _ground(response, times, None)
+    base = ground if equipment else ground + x
+    floors = [at(u) for u in response.floors.displacement.T] if has_floors(response) else []
+    span = max(np.ptp(part) for part in (x, ground, base, *floors))
+    size = max(span, np.abs(x).max(), 1e-3)
+    story = size * min(0.8, 3 / max(len(floors), 1))
+    thick, half, post = 0.15 * story, 0.9 * size, 0.05 * size
+    on_ground, on_base = Group(scene), Group(scene)
+    scene.axhspan(-0.3 * size, 0, color=PALE, zorder=1)
+    on_ground.add(Rectangle((-0.01 * size, -0.3 * size), 0.02 * size, 0.3 * size), color=GRAY)
+    on_ground.move(ground, 0 * ground)
+    on_base.move(base, 0 * base)
+    moving = [on_ground, on_base]
+    outlined: dict[str, Any] = {"edgecolor": INK, "linewidth": 0.6}
+    foot = 0.0 if equipment else 0.2 * story
+    if not equipment:
+        body = Rectangle((-half, 0), 2 * half, foot)
+        on_base.add(body, facecolor=BLUE, zorder=4, **outlined)
+    for i, u in enumerate(floors):
+        level = Group(scene)  # with the posts below it
+        for side in (-1, 1):
+            left = 0.85 * side * half - post / 2
+            level.add(Rectangle((left, foot + i * story), post, story - thick), color=GRAY)
+        slab = Rectangle((-half, foot + (i + 1) * story - thick), 2 * half, thick)
+        level.add(slab, facecolor=PALE, zorder=3, **outlined)
+        level.move(base + u, 0 * u)
+        moving.append(level)
+    under, width, place = on_ground, half, 0.0
+    if equipment:
+        u, place = floors[system.floor - 1], foot + system.floor * story
+        under, width = moving[system.floor + 1], 0.25 * half
+        on_body = Group(scene)
+        body = Rectangle((-width, place), 2 * width, 0.6 * (story - thick))
+        on_body.add(body, facecolor=BLUE, zorder=4, **outlined)
+        on_body.move(base + u + x, 0 * x)
+        moving.append(on_body)
+    reach = half
+    for gap in near_stops(system.slider, response.peak):
+        inside = gap + math.copysign(width, gap)
+        wall = 0.06 * size
+        left = inside if gap > 0 else inside - wall
+        under.add(Rectangle((left, place), wall, 0.3 * story), color=INK, zorder=3, label="stop")
+        reach = max(reach, abs(inside) + wall)
+    places = np.concatenate([group.places[:, 0] for group in moving])
+    scene.set_xlim(places.min() - 1.1 * reach, places.max() + 1.1 * reach, auto=True)
+    scene.set_ylim(-0.3 * size, foot + (len(floors) + 0.7) * story, auto=True)
+    scene.set_aspect("equal", adjustable="datalim")  # as wide as the history
+    scene.axis("off")
+    put_title(scene, response.motion, title, describe_system(system))
+    film = _with_history(way, response, times, x)
+    film.groups = moving
+    still = np.zeros(len(times), dtype=bool)
+    for begin, end in sticks(response):
+        still |= (times >= begin) & (times <= end)
+    film.body = body, [BLUE if one else VERMILION for one in still]
     return figure, film
 
 

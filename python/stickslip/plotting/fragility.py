@@ -10,7 +10,7 @@ from matplotlib.figure import Figure, FigureBase
 
 from ..motions.intensity import OF_DIRECTIONS
 from .figures import one_panel
-from .styles import COLORS, GRAY, style, wrapped
+from .styles import COLORS, GRAY, put_title_over, style, wrapped
 
 MEASURES = {
     "pga_g": "peak ground acceleration",
@@ -19,6 +19,8 @@ MEASURES = {
     "cav": "cumulative absolute velocity",
     "sa_g": "pseudo-acceleration",
 }
+
+_STUCK = 1e-3  # [cm]; a line in a logarithmic scale ends there
 
 
 def measure_label(of: Any) -> str:
@@ -182,12 +184,12 @@ def plot_design_chart(
     unit = {"pga_g": "g", "pgv": "m/s"}[chart.measure]
     shares = ", ".join(f"{p:g}" for p in chart.percentiles)
     over = OF_DIRECTIONS.get(chart.directions, "")
+    ends = (values <= _STUCK).any()
     with style():
         figure, axes = one_panel("plot_design_chart", None, ax, 7, 4.5)
         for i, (level, color) in enumerate(zip(chart.levels, COLORS)):
             for p in range(len(chart.percentiles)):
-                # A line in a logarithmic scale ends where the block does not slide.
-                y = np.where(values[p, i] > 1e-3, values[p, i], np.nan)
+                y = np.where(values[p, i] > _STUCK, values[p, i], np.nan)
                 label = f"{level:g} {unit}" if p == middle else None
                 width = 1.6 if p == middle else 0.7
                 axes.plot(chart.mu, y, color=color, linewidth=width, label=label)
@@ -195,6 +197,10 @@ def plot_design_chart(
         axes.set_xlabel("coefficient of friction [\N{MINUS SIGN}]")
         axes.set_ylabel(f"{over}{quantity} displacement [cm]: {shares} %")
         axes.legend(title=MEASURES[chart.measure])
-        if title:
-            axes.set_title(wrapped(axes, title))
+        put_title_over(
+            axes,
+            f"{quantity} displacement of a block under scaled records".capitalize(),
+            title,
+            "a line ends where the block does not slide" if ends else "",
+        )
     return figure if ax is None else axes

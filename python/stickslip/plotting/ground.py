@@ -9,8 +9,18 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 
 from .._core import STANDARD_GRAVITY, GroundMotion, ResponseSpectrum
+from .._text import printable
 from .figures import one_panel
-from .styles import INK, PALE, VERMILION, is_geometric, plain_ticks, put_title, style, wrapped
+from .styles import (
+    INK,
+    PALE,
+    VERMILION,
+    is_geometric,
+    plain_ticks,
+    put_title,
+    put_title_over,
+    style,
+)
 from .words import digits
 
 
@@ -90,7 +100,7 @@ def plot_response_spectrum(
     ax : matplotlib Axes, optional
         Where to draw; default: a new figure of 6 x 4 inches.
     title : str, optional
-        Default: 'Elastic response spectrum'.
+        Default: 'Elastic response spectrum'. The name of the spectrum is below it.
 
     Returns
     -------
@@ -117,6 +127,6 @@ def plot_response_spectrum(
             plain_ticks(axes, spectrum.periods)
         axes.grid(color=PALE, linewidth=0.6)
         axes.set_axisbelow(True)
-        axes.set_title(wrapped(axes, title or "Elastic response spectrum"))
+        put_title_over(axes, "Elastic response spectrum", title, printable(spectrum.name))
         axes.legend(fontsize=8)
     return figure if ax is None else ax

@@ -59,7 +59,12 @@ def style() -> Any:
 
 
 def put_title(axes: Axes, motion: GroundMotion, title: str | None = None, below: str = "") -> None:
-    name = title or printable(motion.name) or "ground motion"
+    put_title_over(axes, printable(motion.name) or "ground motion", title, below)
+
+
+def put_title_over(axes: Axes, default: str, title: str | None = None, below: str = "") -> None:
+    """Title a panel, with smaller text below the title."""
+    name = title or default
     # A caller's title may contain math; a dollar sign in a file name is literal.
     below = wrap_items(below, room_over(axes), 8)
     pad = 6 + 12 * len(below.splitlines()) if below else None
@@ -72,6 +77,7 @@ def put_title(axes: Axes, motion: GroundMotion, title: str | None = None, below:
         xycoords="axes fraction",
         textcoords="offset points",
         fontsize=8,
+        parse_math=False,
     )
 
 

@@ -96,6 +96,7 @@ class DesignChart(Tabular):
         ax : matplotlib Axes, optional
             Where to draw; default: a new figure of 7 x 4.5 inches.
         title : str, optional
+            Default: the quantity; below it, why lines end.
 
         Returns
         -------

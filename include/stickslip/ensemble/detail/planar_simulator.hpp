@@ -61,13 +61,10 @@ inline void simulate_member(const PlanarEngine& engine, const GroundMotion& moti
   const auto go = [&](const PlanarLoadSegment& segment) { engine.move(segment, contact, state, observer); };
   go_through(pieces, motion.segments(), block, go, [&](std::size_t time) { place.keep(time, state); });
   if (settle)
-    detail::settle(
-        engine.unrest(state), state,
-        [&](double duration) {
-          block.check_stopped();
-          engine.calm(duration, contact, state, observer);
-        },
-        [&] { return engine.level(state); });
+    detail::settle(engine, state, [&](double duration) {
+      block.check_stopped();
+      engine.calm(duration, contact, state, observer);
+    });
   place.end(observer.peak(), state.displacement);
   constexpr double none = std::numeric_limits<double>::infinity();
   if (const Stops& stops = engine.mounting().stops)

@@ -45,8 +45,11 @@ class PlanarEngine {
   /// What can keep it from rest. A damper above the critical one lets a slider creep, too.
   Unrest unrest(const PlanarState& state) const {
     return {mounting_.natural_frequency, law_.constant && !is_stuck(state) && !(hold(state, 1) > 0),
-            !law_.position || mounting_.damping > 0};
+            !law_.position || mounting_.damping > 0, standard_gravity * std::sin(mounting_.slope()),
+            mounting_.stops.forward()};
   }
+  /// Energy of springs in the law: none.
+  double elastic(const PlanarState&) const noexcept { return 0; }
 
  protected:
   /// @param mounting  held by reference

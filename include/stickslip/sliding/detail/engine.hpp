@@ -1,13 +1,17 @@
 // The event loop of one friction law, behind an interface that does not know the law.
 #pragma once
 
+#include <cmath>
+
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/ground/segment.hpp"
+#include "stickslip/run/run.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/detail/sink.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/state.hpp"
+#include "stickslip/units.hpp"
 
 namespace stickslip::detail {
 
@@ -76,6 +80,16 @@ class Engine {
   /// Of a heated law: temperature of the surface [degrees Celsius], and the heat that has it as if it came long ago.
   virtual double temperature(const State& state) const = 0;
   virtual SurfaceHeat heat_at(double temperature) const = 0;
+
+  /// The level against which it slides, under its weight [m/s^2].
+  double level(const State& state) const { return resist(state, 1, direction_of(state.mode)); }
+  /// What can keep it from rest.
+  Unrest unrest(const State& state) const {
+    const auto holds = [&](Direction direction) { return hold(state, 1, direction) > 0; };
+    return {mounting_.natural_frequency,
+            law_.constant && !is_stuck(state) && !holds(Direction::forward) && !holds(Direction::backward),
+            !law_.position, standard_gravity * std::sin(mounting_.slope()), mounting_.stops.forward()};
+  }
 
  protected:
   /// @param mounting  held by reference

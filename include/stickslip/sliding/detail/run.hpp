@@ -163,19 +163,6 @@ class HarmonicSegments final : public Segments<HarmonicSegment> {
   std::uint32_t pieces_ = 0;  // given
 };
 
-/// What can keep a slider of any law from rest.
-inline Unrest unrest_of(const Engine& engine, const State& state) {
-  const auto holds = [&](Direction direction) { return engine.hold(state, 1, direction) > 0; };
-  return {engine.mounting().natural_frequency,
-          engine.law().constant && !is_stuck(state) && !holds(Direction::forward) && !holds(Direction::backward),
-          !engine.law().position};
-}
-/// Continue without ground acceleration until it comes to rest; see `settle` of run.hpp.
-template <class Go>
-bool settle(const Engine& engine, State& state, Go&& go) {
-  return settle(unrest_of(engine, state), state, go, [&] { return engine.resist(state, 1, direction_of(state.mode)); });
-}
-
 /// Whether the normal force is negative anywhere.
 inline bool may_fly(const GroundMotion& motion, double slope) noexcept {
   const LoadPieces pieces(motion, slope);
