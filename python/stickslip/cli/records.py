@@ -5,13 +5,13 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Iterable
-from pathlib import Path
 from typing import Any
 
 from .. import STANDARD_GRAVITY, record_formats, strong_motion
 from .._text import printable
-from .batch import Batch, Motion, add_files
-from .output import column, json_text, write, write_csv
+from .options import add_options
+from .output import column, write
+from .reading import Motion, Records, add_files
 
 __all__ = ["add_records"]
 
@@ -35,6 +35,15 @@ _COLUMNS = (
     "orientation_at",
 )
 
+_OPTIONS = """
+--csv file FILE
+    table with units in its heading, exact doubles
+--json
+    one JSON document, exact doubles
+--why
+    also print the format of each file, and where it states unit, time step and orientation; always
+    printed for one file
+"""
 _FROM = {"file": "(in the file)", "option": "(given)"}
 
 
@@ -52,18 +61,10 @@ def add_records(commands: argparse._SubParsersAction) -> None:
         " A file that cannot be read is reported in one line on stderr; the others are"
         " printed, and the exit code is 1.",
     )
-    add = parser.add_argument
-    add("--formats", action=_Formats, help="print the known formats and exit")
+    parser.add_argument("--formats", action=_Formats, help="print the known formats and exit")
     add_files(parser)
-    add("--csv", type=Path, metavar="FILE", help="table with units in its heading, exact doubles")
-    add("--json", action="store_true", help="one JSON document, exact doubles")
-    add(
-        "--why",
-        action="store_true",
-        help="also print the format of each file, and where it states"
-        " unit, time step and orientation; always printed for one file",
-    )
-    parser.set_defaults(horizontal=False, run=_records, component="all", plot=None)
+    add_options(parser, _OPTIONS)
+    parser.set_defaults(horizontal=False, run=_records, component="all")
 
 
 class _Formats(argparse.Action):
@@ -87,26 +88,21 @@ class _Formats(argparse.Action):
 
 
 def _records(args: argparse.Namespace) -> str:
-    batch = Batch(args)
+    records = Records(args)
+    report = records.report
     rows: list[dict[str, Any]] = []
-    for _, file, found in batch.motions():
-        with batch.reported(file):
-            rows.append(_row(file, found))
-    said = batch.finish()
-    if args.csv:
-        write_csv(args.csv, _COLUMNS, rows)
-    if args.json:
-        return json_text({"records": rows, "errors": said["errors"]})
-    wrote = [f"wrote {printable(str(args.csv))}"] if args.csv else []
+    for found in records:
+        with report.kept(found.file):
+            rows.append(_row(found))
     why = ["", *_why(rows)] if args.why or len({row["file"] for row in rows}) == 1 else []
-    return "\n".join([*_table(rows), *why, *wrote])
+    return report.answer(_COLUMNS, rows, [*_table(rows), *why], key="records")
 
 
-def _row(file: Path, found: Motion) -> dict[str, Any]:
+def _row(found: Motion) -> dict[str, Any]:
     motion = found.motion
     measures = strong_motion(motion)
     return {
-        "file": str(file),
+        "file": str(found.file),
         "record": motion.name,
         "component": found.component,
         "orientation": motion.orientation,

@@ -21,8 +21,9 @@ from .. import (
     TriplePendulum,
 )
 from .._core import _check_unit
+from .options import add_options
 from .output import check_not_negative
-from .parser import StoreAll, group, number, numbers, ratio, ratios
+from .parser import group
 
 __all__ = [
     "add_contact",
@@ -73,36 +74,60 @@ _PENDULUMS: dict[int, Callable[..., MultiPendulum]] = {
 }
 
 
+_SLIDERS = """
+--mu ratios*... required
+    coefficients of friction [-] or ranges; a repeated value is used once
+"""
+_FRICTION = """
+--law {laws} = coulomb
+    friction law
+--mu-static {ratio} MU
+    coefficient of static friction [-], at least --mu, which is then the kinetic one
+--reach {number} M
+    caster: distance over which the level falls [m]
+--trail number M
+    caster: pivot to wheel axis [m]; with --wheel-width, instead of --reach
+--wheel-width number M
+    caster: width of a wheel [m]; with --trail
+"""
+_PENDULUM = """
+--radii number*... M
+    pendulum: effective radii of a double bearing (lower, upper), a triple one (inner, lower outer,
+    upper outer) or a quintuple one (inner, middle, outer) [m]; --mu then has one coefficient for
+    each
+--capacities number*... M
+    pendulum: travel of each surface to its stop [m]; default: none
+"""
+_MOUNTING = """
+--period {number} S
+    period of the mass on its spring [s]
+--damping-ratio {ratio} Z
+    damping ratio; with --period
+--slope {number} DEGREES
+    slope of the ground; downhill is forward
+--stop-gap {number} M
+    distance from the start to a stop, both ways [m]
+--restitution {ratio} E
+    speed after an impact on a stop over that before, from 0 to 1; with --stop-gap
+"""
+_CONTACT = """
+--contact flight|clipped = flight
+    where the ground falls faster than the block: it flies and lands (the default), or stays on the
+    ground without friction
+"""
+_PLANAR = """
+--planar
+    slide in both horizontal directions at once: friction opposes the velocity vector; implies
+    --station, and prints the largest and the last distance from the start
+"""
+
+
 def add_sliders(parser: argparse.ArgumentParser) -> None:
     """Add the options that `variations` reads, except --scale, and --contact."""
-    add = group(parser, "friction").add_argument
-    add(
-        "--mu",
-        nargs="+",
-        action=StoreAll,
-        type=ratios,
-        required=True,
-        help="coefficients of friction [-] or ranges; a repeated value is used once",
-    )
+    friction = group(parser, "friction")
+    add_options(friction, _SLIDERS)
     add_slider(parser, ranges=True)
-    add(
-        "--radii",
-        nargs="+",
-        action=StoreAll,
-        type=number,
-        metavar="M",
-        help="pendulum: effective radii of a double bearing (lower, upper), a triple one (inner,"
-        " lower outer, upper outer) or a quintuple one (inner, middle, outer) [m]; --mu then has"
-        " one coefficient for each",
-    )
-    add(
-        "--capacities",
-        nargs="+",
-        action=StoreAll,
-        type=number,
-        metavar="M",
-        help="pendulum: travel of each surface to its stop [m]; default: none",
-    )
+    add_options(friction, _PENDULUM)
     add_contact(parser)
 
 
@@ -115,64 +140,20 @@ def add_slider(parser: argparse.ArgumentParser, ranges: bool = False) -> None:
     ranges : bool, optional
         Whether the options accept ranges START:STOP:STEP.
     """
-    length: Callable[[str], Any] = numbers if ranges else number
-    part: Callable[[str], Any] = ratios if ranges else ratio
-    add = group(parser, "friction").add_argument
-    laws = ("coulomb", "caster", "one-way", *(("pendulum",) if ranges else ()))
-    add("--law", choices=laws, default="coulomb", help="friction law")
-    add(
-        "--mu-static",
-        type=part,
-        metavar="MU",
-        help="coefficient of static friction [-], at least --mu, which is then the kinetic one",
-    )
-    add("--reach", type=length, metavar="M", help="caster: distance over which the level falls [m]")
-    add(
-        "--trail",
-        type=number,
-        metavar="M",
-        help="caster: pivot to wheel axis [m]; with --wheel-width, instead of --reach",
-    )
-    add(
-        "--wheel-width", type=number, metavar="M", help="caster: width of a wheel [m]; with --trail"
-    )
-    add = group(parser, "mounting and ground").add_argument
-    add("--period", type=length, metavar="S", help="period of the mass on its spring [s]")
-    add("--damping-ratio", type=part, metavar="Z", help="damping ratio; with --period")
-    add("--slope", type=length, metavar="DEGREES", help="slope of the ground; downhill is forward")
-    add(
-        "--stop-gap",
-        type=length,
-        metavar="M",
-        help="distance from the start to a stop, both ways [m]",
-    )
-    add(
-        "--restitution",
-        type=part,
-        metavar="E",
-        help="speed after an impact on a stop over that before, from 0 to 1; with --stop-gap",
-    )
+    kinds = {kind: kind + "s" * ranges for kind in ("number", "ratio")}
+    laws = "coulomb|caster|one-way" + "|pendulum" * ranges
+    for title, table in (("friction", _FRICTION), ("mounting and ground", _MOUNTING)):
+        add_options(group(parser, title), table.format(laws=laws, **kinds))
 
 
 def add_contact(parser: argparse.ArgumentParser) -> None:
     """Add --contact."""
-    group(parser, "mounting and ground").add_argument(
-        "--contact",
-        choices=("flight", "clipped"),
-        default="flight",
-        help="where the ground falls faster than the block: it flies and lands (the default), or"
-        " stays on the ground without friction",
-    )
+    add_options(group(parser, "mounting and ground"), _CONTACT)
 
 
 def add_planar(parser: argparse.ArgumentParser) -> None:
     """Add --planar."""
-    group(parser, "mounting and ground").add_argument(
-        "--planar",
-        action="store_true",
-        help="slide in both horizontal directions at once: friction opposes the velocity vector;"
-        " implies --station, and prints the largest and the last distance from the start",
-    )
+    add_options(group(parser, "mounting and ground"), _PLANAR)
 
 
 def check_planar(args: argparse.Namespace) -> None:
