@@ -5,14 +5,13 @@ from __future__ import annotations
 import argparse
 
 from .. import IsolatedStructure, PlanarSlider, Slider, Structure
-from .options import add_options
 from .output import check_not_negative, check_positive
-from .parser import group
 
-__all__ = ["add_building", "building_on"]
+__all__ = ["BUILDING", "building_on"]
 
 _OPTIONS = ("story_masses", "story_stiffnesses", "base_mass", "story_damping_ratio")
-_BUILDING = """
+BUILDING = """
+[building]
 --story-masses number*... KG
     a shear building on the block, which is its base: masses of its floors, bottom up [kg]
 --story-stiffnesses number*... K
@@ -22,11 +21,6 @@ _BUILDING = """
 --story-damping-ratio ratio Z
     building: damping ratio of each mode on a fixed base
 """
-
-
-def add_building(parser: argparse.ArgumentParser) -> None:
-    """Add the options that `building_on` reads."""
-    add_options(group(parser, "building"), _BUILDING)
 
 
 def building_on(

@@ -18,7 +18,7 @@ from .. import (
     WithVertical,
 )
 from .._text import printable
-from .building import add_building, building_on
+from .building import BUILDING, building_on
 from .options import add_options
 from .output import (
     FAILURES,
@@ -29,13 +29,14 @@ from .output import (
     json_text,
     reason_of,
 )
-from .slider import add_contact, add_slider, any_slider_of
+from .slider import SLIDER, any_slider_of
 
 __all__ = ["add_ensemble"]
 
 _LEVELS = (0.01, 0.03, 0.1, 0.3, 1.0)  # default of --level [m]
 _SHARES_OF_FLOORS = (0.5, 0.95)
 _SOURCE = """
+[, one of, required]
 --event text NAME
     a scenario from the list below
 --rate number R
@@ -100,13 +101,7 @@ def add_ensemble(commands: argparse._SubParsersAction) -> None:
         " block may be the base of a building: --story-masses and the options with it.",
         epilog=f"Scenarios: {', '.join(PoissonPulses.events())}.",
     )
-    source = parser.add_mutually_exclusive_group(required=True)
-    add_options(source, _SOURCE)
-    add_options(parser, _MOTION)
-    add_slider(parser)
-    add_contact(parser)
-    add_building(parser)
-    add_options(parser, _RUN)
+    add_options(parser, _SOURCE, _MOTION, SLIDER, BUILDING, _RUN)
     parser.set_defaults(run=_ensemble, contact=None)  # a building is always clipped
 
 

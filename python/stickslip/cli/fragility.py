@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from .. import Coulomb, Lognormal
 from .options import add_options
 from .output import check_whole
-from .reading import Records, add_files
+from .reading import RECORDS, Records
 
 if TYPE_CHECKING:
     from ..risk.fragility import Bands, Fragility
@@ -66,8 +66,7 @@ def add_fragility(commands: argparse._SubParsersAction) -> None:
         " that cannot be read is reported in one line on stderr; the others count, and the exit"
         " code is 1.",
     )
-    add_files(parser)
-    add_options(parser, _OPTIONS)
+    add_options(parser, RECORDS, _OPTIONS)
     parser.set_defaults(horizontal=True, one_picture=True, run=_fragility)
 
 

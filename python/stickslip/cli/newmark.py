@@ -24,7 +24,7 @@ from .._core import _most_modes as most_modes
 from .._text import printable
 from .options import add_options
 from .output import check_not_negative, check_positive, check_whole
-from .reading import Records, add_files
+from .reading import RECORDS, Records
 
 if TYPE_CHECKING:
     from ..sweeps import SweepTable
@@ -78,8 +78,7 @@ def add_newmark(commands: argparse._SubParsersAction) -> None:
         " A file that cannot be read, and a displacement that cannot be computed, are"
         " reported in one line on stderr; the others are printed, and the exit code is 1.",
     )
-    add_files(parser)
-    add_options(parser, _OPTIONS)
+    add_options(parser, RECORDS, _OPTIONS)
     parser.set_defaults(horizontal=True, run=_newmark)
 
 

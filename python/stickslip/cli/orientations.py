@@ -8,11 +8,11 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from .._text import printable
-from .options import add_options
+from .options import SCALE, add_options
 from .output import column, complain
-from .reading import Records, add_files, add_scale
-from .report import add_outputs
-from .slider import add_sliders, cells, described, heads, keyed, slider_of, variations
+from .reading import RECORDS, Records
+from .report import outputs
+from .slider import SLIDERS, cells, described, heads, keyed, slider_of, variations
 
 if TYPE_CHECKING:
     from ..sweeps import Orientations
@@ -44,11 +44,7 @@ def add_orientations(commands: argparse._SubParsersAction) -> None:
         " START:STOP:STEP; every combination is computed. A station that cannot be read or slid is"
         " reported in one line on stderr; the others are printed, and the exit code is 1.",
     )
-    add_files(parser)
-    add_sliders(parser)
-    add_options(parser, _DEGREES)
-    add_scale(parser)
-    add_outputs(parser, each="station")
+    add_options(parser, RECORDS, SLIDERS, _DEGREES, SCALE, outputs(each="station"))
     parser.set_defaults(horizontal=True, station=True, pairs=True, run=_orientations)
 
 

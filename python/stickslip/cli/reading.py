@@ -27,16 +27,15 @@ from ..motions.records import (
 )
 from ..motions.samples import sample_files, sample_record
 from ..motions.stations import Part, stations_of
-from .options import add_options
 from .output import FAILURES, complain, reason_of
-from .parser import group
 from .report import Report
 
-__all__ = ["Motion", "Records", "add_files", "add_scale", "add_vertical"]
+__all__ = ["RECORDS", "VERTICAL", "Motion", "Records"]
 
 _SAMPLE = "sample:"  # before the name of a sample record, in place of a file
 
-_RECORDS = """
+RECORDS = """
+[records]
 records file... RECORD
     file (AT2, COSMOS, GeoNet, K-NET, CSV and others); folder (all files in it); pattern such as
     'quakes/*.AT2'; sample:Kobe, a sample record; or sample:all
@@ -61,7 +60,8 @@ records file... RECORD
     stop at the first failure, with exit code 2 and nothing on stdout; pictures written before it
     remain
 """
-_VERTICAL = """
+VERTICAL = """
+[records, one of]
 --station
     group the components of each station, from one file or several: the vertical one acts too, and
     --component is a horizontal component or an azimuth [degrees] (default: the first horizontal
@@ -69,21 +69,6 @@ _VERTICAL = """
 --vertical file FILE
     vertical component of the record, from another file with the same samples
 """
-
-
-def add_files(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments that `Records` reads."""
-    add_options(group(parser, "records"), _RECORDS)
-
-
-def add_vertical(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments that let the vertical motion act, which `Records` reads too."""
-    add_options(group(parser, "records").add_mutually_exclusive_group(), _VERTICAL)
-
-
-def add_scale(parser: Any, kind: str = "ratio") -> None:
-    """Add --scale."""
-    add_options(parser, f"--scale {kind} = 1\n    factor on the ground acceleration (default 1)")
 
 
 class Motion(NamedTuple):

@@ -11,30 +11,28 @@ from typing import TYPE_CHECKING, Any
 
 from .._failures import grouped, with_options
 from .._text import printable
-from .options import add_options
 from .output import FAILURES, check_outputs, complain, json_text, reason_of, write_csv
-from .parser import group
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from .reading import Motion
 
-__all__ = ["Report", "StrictError", "add_outputs"]
+__all__ = ["Report", "StrictError", "outputs"]
 
 
-def add_outputs(parser: argparse.ArgumentParser, each: str = "record") -> None:
-    """Add --plot, --csv and --json; `each` says of what there is a picture, if not of all."""
+def outputs(each: str = "record") -> str:
+    """The options --plot, --csv and --json, with a picture for each of something, or of all."""
     several = f", one for each {each}" if each else ""
-    table = f"""
-        --plot file FILE
-            picture (.png, .pdf, .svg){several}
-        --csv file FILE
-            table with units in its heading, exact doubles
-        --json
-            one JSON document, SI units, exact doubles
-        """
-    add_options(group(parser, "output"), table)
+    return f"""
+[output]
+--plot file FILE
+    picture (.png, .pdf, .svg){several}
+--csv file FILE
+    table with units in its heading, exact doubles
+--json
+    one JSON document, SI units, exact doubles
+"""
 
 
 class StrictError(Exception):

@@ -21,12 +21,11 @@ from .. import (
 from .._text import printable
 from .options import add_options
 from .output import check_outputs, column, complain
-from .parser import group
-from .reading import Motion, Records, add_files, add_scale, add_vertical
-from .report import add_outputs
+from .reading import RECORDS, VERTICAL, Motion, Records
+from .report import outputs
 from .slider import (
-    add_planar,
-    add_sliders,
+    PLANAR,
+    SLIDERS,
     any_slider_of,
     cells,
     check_planar,
@@ -80,12 +79,19 @@ _PLANAR_COLUMNS = (
     "impacts",
     "impact_speed_m_s",
 )
-_POLARITY = """
+_OPTIONS = """
+[records]
+--scale ratios = 1
+    factor on the ground acceleration (default 1)
+[records, one of]
 --polarity recorded|reversed|both
     slide each record as recorded (the default), reversed, or both; also prints the mean of both
     (for residuals, of their magnitudes)
+--both polarity=both
+    --polarity both
 """
 _ANIMATE = """
+[output]
 --animate file FILE
     picture that moves (.gif, .mp4, .html): the object sliding on its shaking floor; one record and
     one slider
@@ -113,19 +119,7 @@ def add_slide(commands: argparse._SubParsersAction) -> None:
         " for an infinite value or an option that was not given. Bad options end the command with"
         " exit code 2 before any file is read.",
     )
-    add_files(parser)
-    add_sliders(parser)
-    add_vertical(parser)
-    add_planar(parser)
-    motions = group(parser, "records")
-    add_scale(motions, "ratios")
-    sense = motions.add_mutually_exclusive_group()
-    add_options(sense, _POLARITY)
-    sense.add_argument(
-        "--both", action="store_const", const="both", dest="polarity", help="--polarity both"
-    )
-    add_outputs(parser)
-    add_options(group(parser, "output"), _ANIMATE)
+    add_options(parser, RECORDS, SLIDERS, VERTICAL, PLANAR, _OPTIONS, outputs(), _ANIMATE)
     parser.set_defaults(horizontal=True, run=_slide)
 
 

@@ -21,15 +21,12 @@ from .. import (
     TriplePendulum,
 )
 from .._core import _check_unit
-from .options import add_options
 from .output import check_not_negative
-from .parser import group
 
 __all__ = [
-    "add_contact",
-    "add_planar",
-    "add_slider",
-    "add_sliders",
+    "PLANAR",
+    "SLIDER",
+    "SLIDERS",
     "any_slider_of",
     "cells",
     "check_planar",
@@ -74,11 +71,20 @@ _PENDULUMS: dict[int, Callable[..., MultiPendulum]] = {
 }
 
 
-_SLIDERS = """
---mu ratios*... required
-    coefficients of friction [-] or ranges; a repeated value is used once
+CONTACT = """
+[mounting and ground]
+--contact flight|clipped = flight
+    where the ground falls faster than the block: it flies and lands (the default), or stays on the
+    ground without friction
 """
-_FRICTION = """
+PLANAR = """
+[mounting and ground]
+--planar
+    slide in both horizontal directions at once: friction opposes the velocity vector; implies
+    --station, and prints the largest and the last distance from the start
+"""
+_SLIDER = """
+[friction]
 --law {laws} = coulomb
     friction law
 --mu-static {ratio} MU
@@ -89,16 +95,7 @@ _FRICTION = """
     caster: pivot to wheel axis [m]; with --wheel-width, instead of --reach
 --wheel-width number M
     caster: width of a wheel [m]; with --trail
-"""
-_PENDULUM = """
---radii number*... M
-    pendulum: effective radii of a double bearing (lower, upper), a triple one (inner, lower outer,
-    upper outer) or a quintuple one (inner, middle, outer) [m]; --mu then has one coefficient for
-    each
---capacities number*... M
-    pendulum: travel of each surface to its stop [m]; default: none
-"""
-_MOUNTING = """
+[mounting and ground]
 --period {number} S
     period of the mass on its spring [s]
 --damping-ratio {ratio} Z
@@ -110,50 +107,24 @@ _MOUNTING = """
 --restitution {ratio} E
     speed after an impact on a stop over that before, from 0 to 1; with --stop-gap
 """
-_CONTACT = """
---contact flight|clipped = flight
-    where the ground falls faster than the block: it flies and lands (the default), or stays on the
-    ground without friction
+_LAWS = "coulomb|caster|one-way"
+# What `slider_of` reads, except --mu.
+SLIDER = _SLIDER.format(laws=_LAWS, number="number", ratio="ratio") + CONTACT
+# What `variations` reads, except --scale.
+SLIDERS = f"""
+[friction]
+--mu ratios*... required
+    coefficients of friction [-] or ranges; a repeated value is used once
+{_SLIDER.format(laws=f"{_LAWS}|pendulum", number="numbers", ratio="ratios").strip()}
+[friction]
+--radii number*... M
+    pendulum: effective radii of a double bearing (lower, upper), a triple one (inner, lower outer,
+    upper outer) or a quintuple one (inner, middle, outer) [m]; --mu then has one coefficient for
+    each
+--capacities number*... M
+    pendulum: travel of each surface to its stop [m]; default: none
+{CONTACT.strip()}
 """
-_PLANAR = """
---planar
-    slide in both horizontal directions at once: friction opposes the velocity vector; implies
-    --station, and prints the largest and the last distance from the start
-"""
-
-
-def add_sliders(parser: argparse.ArgumentParser) -> None:
-    """Add the options that `variations` reads, except --scale, and --contact."""
-    friction = group(parser, "friction")
-    add_options(friction, _SLIDERS)
-    add_slider(parser, ranges=True)
-    add_options(friction, _PENDULUM)
-    add_contact(parser)
-
-
-def add_slider(parser: argparse.ArgumentParser, ranges: bool = False) -> None:
-    """Add the options that `slider_of` reads, except --mu.
-
-    Parameters
-    ----------
-    parser : argparse.ArgumentParser
-    ranges : bool, optional
-        Whether the options accept ranges START:STOP:STEP.
-    """
-    kinds = {kind: kind + "s" * ranges for kind in ("number", "ratio")}
-    laws = "coulomb|caster|one-way" + "|pendulum" * ranges
-    for title, table in (("friction", _FRICTION), ("mounting and ground", _MOUNTING)):
-        add_options(group(parser, title), table.format(laws=laws, **kinds))
-
-
-def add_contact(parser: argparse.ArgumentParser) -> None:
-    """Add --contact."""
-    add_options(group(parser, "mounting and ground"), _CONTACT)
-
-
-def add_planar(parser: argparse.ArgumentParser) -> None:
-    """Add --planar."""
-    add_options(group(parser, "mounting and ground"), _PLANAR)
 
 
 def check_planar(args: argparse.Namespace) -> None:

@@ -8,10 +8,10 @@ from typing import Any
 
 from .. import STANDARD_GRAVITY, ResponseSpectrum, response_spectrum
 from .._text import printable
-from .options import add_options
+from .options import SCALE, add_options
 from .output import column
-from .reading import Motion, Records, add_files, add_scale
-from .report import add_outputs
+from .reading import RECORDS, Motion, Records
+from .report import outputs
 
 __all__ = ["add_spectrum"]
 
@@ -48,10 +48,7 @@ def add_spectrum(commands: argparse._SubParsersAction) -> None:
         " that cannot be read is reported in one line on stderr; the others are printed, and the"
         " exit code is 1.",
     )
-    add_files(parser)
-    add_options(parser, _OPTIONS)
-    add_scale(parser)
-    add_outputs(parser)
+    add_options(parser, RECORDS, _OPTIONS, SCALE, outputs())
     parser.set_defaults(horizontal=False, run=_spectrum)
 
 

@@ -9,13 +9,13 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .options import add_options
+from .options import SCALE, add_options
 from .output import column, complain
-from .reading import Records, add_files, add_scale, add_vertical
-from .report import add_outputs
+from .reading import RECORDS, VERTICAL, Records
+from .report import outputs
 from .slider import (
-    add_planar,
-    add_sliders,
+    PLANAR,
+    SLIDERS,
     any_slider_of,
     cells,
     check_planar,
@@ -61,13 +61,8 @@ def add_sweep(commands: argparse._SubParsersAction) -> None:
         " stderr; the statistics are those of the others, and the exit code is 1. CSV and JSON"
         " have every response; in JSON the statistics are listed besides.",
     )
-    add_files(parser)
-    add_sliders(parser)
-    add_vertical(parser)
-    add_planar(parser)
-    add_scale(parser)
-    add_options(parser, _POLARITY)
-    add_outputs(parser, each="")
+    tables = (RECORDS, SLIDERS, VERTICAL, PLANAR, SCALE, _POLARITY, outputs(each=""))
+    add_options(parser, *tables)
     parser.set_defaults(horizontal=True, one_picture=True, run=_sweep)
 
 
