@@ -245,6 +245,16 @@ class SweepTable(Tabular, Saved):
             impacts=dict.fromkeys(IMPACTS | PLANAR_IMPACTS, np.zeros(shape)) if has_stops else None,
         )
 
+    @classmethod
+    def _of(cls, arrays: Mapping[str, Any], **about: Any) -> SweepTable:
+        """The table of arrays as `arrays` returns them."""
+        return cls(
+            **about,
+            **{name: arrays[name] for name in (*QUANTITIES, "airborne")},
+            components=arrays if "residual_axis" in arrays else None,
+            impacts=arrays if {"impacts_forward", "impacts"} & arrays.keys() else None,
+        )
+
     def arrays(self, columns: bool = False) -> dict[str, NDArray[Any]]:
         """The arrays over slider, record and polarity; in columns `airborne` only if one is."""
         arrays = {name: getattr(self, name) for name in QUANTITIES}
@@ -451,19 +461,14 @@ class SweepTable(Tabular, Saved):
                 f" {found!r}"
             )
         try:
-            return cls(
+            return cls._of(
+                document,  # in which float makes NaN of null
                 **{name: document[name] for name in ("sliders", "records", "polarity")},
                 **{
                     name: {key: _unlisted(values) for key, values in document[name].items()}
                     for name in ("parameters", "metadata")
                 },
-                **{name: document[name] for name in QUANTITIES},  # float makes NaN of null
-                airborne=document["airborne"],
-                components=document if "residual_axis" in document else None,
-                impacts=document if {"impacts_forward", "impacts"} & document.keys() else None,
-                settle=document["settle"],
-                contact=document["contact"],
-                remark=document["remark"],
+                **{name: document[name] for name in ("settle", "contact", "remark")},
                 failures=[
                     SweepFailure(*(one[name] for name in SweepFailure._fields))
                     for one in document["failures"]
@@ -577,21 +582,8 @@ class SweepTable(Tabular, Saved):
                 kind = h5[key].attrs["kind"]
                 length = shape[0 if kind == "parameters" else 1]
                 columns[kind][h5[key].attrs["name"]] = read(h5, key, (length,))
-        components = {name: read(h5, name, shape) for name in COMPONENTS if "residual_axis" in h5}
-        impacts = {
-            name: read(h5, name, shape)
-            for group, first in ((IMPACTS, "impacts_forward"), (PLANAR_IMPACTS, "impacts"))
-            for name in group
-            if first in h5
-        }
-        return cls(
-            **axes,
-            **columns,
-            **{name: read(h5, name, shape) for name in (*QUANTITIES, "airborne")},
-            components=components or None,
-            impacts=impacts or None,
-            **about,
-        )
+        arrays = {name: read(h5, name, shape) for name in _ALL if name in h5}
+        return cls._of(arrays, **axes, **columns, **about)
 
     @overload
     def plot(
