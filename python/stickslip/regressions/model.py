@@ -94,9 +94,10 @@ class Regression:
     forms: tuple[Form, ...]
 
     def __init_subclass__(cls) -> None:
-        """Put the equations into the docstring, below its first line."""
+        """Put the equations into the docstring, below its first line, and the source at its end."""
         first, _, rest = inspect.cleandoc(cls.__doc__ or "").partition("\n\n")
-        cls.__doc__ = f"{first}\n\n{_described(cls)}\n\n{rest}"
+        source = f"References\n----------\n{textwrap.fill(cls.source, 100)}"
+        cls.__doc__ = "\n\n".join(filter(None, (first, _described(cls), rest, source)))
 
     def predict(
         self,

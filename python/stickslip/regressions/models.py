@@ -32,14 +32,13 @@ class AmbraseysMenu1988(Regression):
 
     The records are from the near field of earthquakes of magnitude 6.6 to 7.3, which is not an
     argument.
-
-    References
-    ----------
-    N. N. Ambraseys, J. M. Menu, Earthquake-induced ground displacements, Earthquake Engineering and
-    Structural Dynamics 16 (1988), 985-1006. Coefficients as in SLAMMER and the R package newmark.
     """
 
-    source = "Ambraseys and Menu 1988, Earthquake Eng. Struct. Dyn. 16, 985-1006"
+    source = (
+        "N. N. Ambraseys, J. M. Menu, Earthquake-induced ground displacements, Earthquake"
+        " Engineering and Structural Dynamics 16 (1988), 985-1006. Coefficients as in SLAMMER"
+        " and the R package newmark."
+    )
     base = "log"
     forms = (Form("", ("pga",), "0.90 + 2.53 log(1 - r) - 1.09 log r", "0.30"),)
 
@@ -49,15 +48,13 @@ class YegianEtAl1991(Regression):
 
     The displacement is normalized: the polynomial, D*, has no dimension, and alone is not a
     displacement in centimeters. At ky = pga it leaves log D* = -5.0.
-
-    References
-    ----------
-    M. K. Yegian, E. A. Marciano, V. G. Ghahraman, Earthquake-induced permanent deformations:
-    probabilistic approach, J. Geotechnical Engineering 117 (1991), 35-50. Polynomial as in the R
-    package newmark.
     """
 
-    source = "Yegian, Marciano and Ghahraman 1991, J. Geotech. Eng. 117, 35-50"
+    source = (
+        "M. K. Yegian, E. A. Marciano, V. G. Ghahraman, Earthquake-induced permanent"
+        " deformations: probabilistic approach, J. Geotechnical Engineering 117 (1991), 35-50."
+        " Polynomial as in the R package newmark."
+    )
     base = "log"
     unit = "m"
     forms = (
@@ -74,15 +71,13 @@ class JibsonEtAl2000(Regression):
     """Rigid blocks, from Arias intensity (Jibson, Harp and Michael 2000).
 
     Sigma is unverified: we have not seen it in a source. The model has no limit at ky = pga.
-
-    References
-    ----------
-    R. W. Jibson, E. L. Harp, J. A. Michael, A method for producing digital probabilistic seismic
-    landslide hazard maps, Engineering Geology 58 (2000), 271-289. Coefficients as in SLAMMER and
-    OpenQuake.
     """
 
-    source = "Jibson, Harp and Michael 2000, Engineering Geology 58, 271-289"
+    source = (
+        "R. W. Jibson, E. L. Harp, J. A. Michael, A method for producing digital probabilistic"
+        " seismic landslide hazard maps, Engineering Geology 58 (2000), 271-289. Coefficients as"
+        " in SLAMMER and OpenQuake."
+    )
     base = "log"
     where: ClassVar[dict[str, str]] = {}
     forms = (Form("", ("Ia",), "1.521 log Ia - 1.993 log ky - 1.546", "0.375"),)
@@ -124,14 +119,12 @@ class Jibson2007(Regression):
 
     Equation (10) does not vanish at ky = pga: it steps to 0. The range of M is that of equation
     (7); that of ky, for which the records were analyzed, is unverified.
-
-    References
-    ----------
-    R. W. Jibson, Regression models for estimating coseismic landslide displacement, Engineering
-    Geology 91 (2007), 209-218. Coefficients as in SLAMMER and OpenSRA.
     """
 
-    source = "Jibson 2007, Engineering Geology 91, 209-218"
+    source = (
+        "R. W. Jibson, Regression models for estimating coseismic landslide displacement,"
+        " Engineering Geology 91 (2007), 209-218. Coefficients as in SLAMMER and OpenSRA."
+    )
     ranges: ClassVar = {"M": (5.3, 7.6), "ky": (0.05, 0.4)}
     base = "log"
     forms = (
@@ -153,15 +146,13 @@ class SaygiliRathje2008(Regression):
     The sigmas of PGA and of PGA, PGV and Ia are those in OpenSRA, which we could not check against
     the paper. Some publications have 20.93 for 20.39; the authors' model with magnitude agrees with
     20.39. The range of ky, for which the records were analyzed, is unverified.
-
-    References
-    ----------
-    G. Saygili, E. M. Rathje, Empirical predictive models for earthquake-induced sliding
-    displacements of slopes, J. Geotech. Geoenviron. Eng. 134 (2008), 790-803. Coefficients as in
-    SLAMMER, OpenSRA and OpenQuake.
     """
 
-    source = "Saygili and Rathje 2008, J. Geotech. Geoenviron. Eng. 134, 790-803"
+    source = (
+        "G. Saygili, E. M. Rathje, Empirical predictive models for earthquake-induced sliding"
+        " displacements of slopes, J. Geotech. Geoenviron. Eng. 134 (2008), 790-803."
+        " Coefficients as in SLAMMER, OpenSRA and OpenQuake."
+    )
     ranges: ClassVar = {"ky": (0.05, 0.3)}
     forms = (
         Form("PGA and PGV", ("pga", "pgv"), _OF_PGA_PGV, "0.41 + 0.52 r"),
@@ -188,16 +179,13 @@ class SaygiliRathje2008(Regression):
 
 
 class RathjeSaygili2009(Regression):
-    """Rigid blocks, from PGA and magnitude (Rathje and Saygili 2009).
+    """Rigid blocks, from PGA and magnitude (Rathje and Saygili 2009)."""
 
-    References
-    ----------
-    E. M. Rathje, G. Saygili, Probabilistic assessment of earthquake-induced sliding displacements
-    of natural slopes, Bull. New Zealand Soc. Earthquake Eng. 42 (2009), 18-27. Coefficients as in
-    SLAMMER, OpenQuake and pygeems.
-    """
-
-    source = "Rathje and Saygili 2009, Bull. NZ Soc. Earthquake Eng. 42, 18-27"
+    source = (
+        "E. M. Rathje, G. Saygili, Probabilistic assessment of earthquake-induced sliding"
+        " displacements of natural slopes, Bull. New Zealand Soc. Earthquake Eng. 42 (2009),"
+        " 18-27. Coefficients as in SLAMMER, OpenQuake and pygeems."
+    )
     forms = (Form("", ("pga", "M"), _OF_PGA_M, "0.732 + 0.789 r - 0.539 r^2"),)
 
 
@@ -206,15 +194,13 @@ class RathjeAntonakos2011(Regression):
 
     The equations are those of `RathjeSaygili2009` and `SaygiliRathje2008` with the loading of a
     mass of period Ts, and a term of this period. Tm is the mean period of the ground motion.
-
-    References
-    ----------
-    E. M. Rathje, G. Antonakos, A unified model for predicting earthquake-induced sliding
-    displacements of rigid and flexible slopes, Engineering Geology 122 (2011), 51-60. Coefficients
-    as in pygeems and OpenSRA.
     """
 
-    source = "Rathje and Antonakos 2011, Engineering Geology 122, 51-60"
+    source = (
+        "E. M. Rathje, G. Antonakos, A unified model for predicting earthquake-induced sliding"
+        " displacements of rigid and flexible slopes, Engineering Geology 122 (2011), 51-60."
+        " Coefficients as in pygeems and OpenSRA."
+    )
     where: ClassVar = {
         "r": "min(ky / kmax, 1)",
         "kmax": "pga exp((0.459 - 0.702 pga) L + (-0.228 + 0.076 pga) L^2)",
@@ -244,15 +230,13 @@ class BrayTravasarou2007(Regression):
 
     D = 0 means less than 1 cm. For strong ground motions and small ky the polynomial turns: at Sa =
     1 g the median falls with decreasing ky below 0.014 g. The range of ky is unverified.
-
-    References
-    ----------
-    J. D. Bray, T. Travasarou, Simplified procedure for estimating earthquake-induced deviatoric
-    slope displacements, J. Geotech. Geoenviron. Eng. 133 (2007), 381-392, and the authors'
-    worksheet.
     """
 
-    source = "Bray and Travasarou 2007, J. Geotech. Geoenviron. Eng. 133, 381-392"
+    source = (
+        "J. D. Bray, T. Travasarou, Simplified procedure for estimating earthquake-induced"
+        " deviatoric slope displacements, J. Geotech. Geoenviron. Eng. 133 (2007), 381-392, and"
+        " the authors' worksheet."
+    )
     ranges: ClassVar = {"ky": (0.02, 0.4)}
     degraded_period = 1.5
     where: ClassVar = {
@@ -275,15 +259,13 @@ class BrayMacedoTravasarou2018(Regression):
 
     P(D = 0) is unverified: it is that of pygeems, which we could not check against the paper or an
     example. So is the range of ky.
-
-    References
-    ----------
-    J. D. Bray, J. Macedo, T. Travasarou, Simplified procedure for estimating seismic slope
-    displacements for subduction zone earthquakes, J. Geotech. Geoenviron. Eng. 144 (2018),
-    04017124. Coefficients of ln D as in the R package newmark.
     """
 
-    source = "Bray, Macedo and Travasarou 2018, J. Geotech. Geoenviron. Eng. 144, 04017124"
+    source = (
+        "J. D. Bray, J. Macedo, T. Travasarou, Simplified procedure for estimating seismic"
+        " slope displacements for subduction zone earthquakes, J. Geotech. Geoenviron. Eng. 144"
+        " (2018), 04017124. Coefficients of ln D as in the R package newmark."
+    )
     ranges: ClassVar = {"ky": (0.01, 0.8)}
     degraded_period = 1.5
     where: ClassVar = {
@@ -309,15 +291,13 @@ class BrayMacedo2019(Regression):
     Without `pgv` it is taken as at most 115 cm/s. D = 0 means less than 0.5 cm. P(D = 0) is
     unverified: it is that of OpenSRA, which we could not check against the paper or an example. So
     is the range of ky.
-
-    References
-    ----------
-    J. D. Bray, J. Macedo, Procedure for estimating shear-induced seismic slope displacement for
-    shallow crustal earthquakes, J. Geotech. Geoenviron. Eng. 145 (2019), 04019106. Coefficients of
-    ln D as in OpenSRA and the R package newmark.
     """
 
-    source = "Bray and Macedo 2019, J. Geotech. Geoenviron. Eng. 145, 04019106"
+    source = (
+        "J. D. Bray, J. Macedo, Procedure for estimating shear-induced seismic slope"
+        " displacement for shallow crustal earthquakes, J. Geotech. Geoenviron. Eng. 145 (2019),"
+        " 04019106. Coefficients of ln D as in OpenSRA and the R package newmark."
+    )
     ranges: ClassVar = {"ky": (0.01, 0.8)}
     degraded_period = 1.3
     where: ClassVar = {
@@ -347,15 +327,13 @@ class FotopoulouPitilakis2015(Regression):
     ----------
     form : {'a', 'b', 'c', 'd'}, optional
         Default: the arguments choose a, b or d. Form c takes the same arguments as b.
-
-    References
-    ----------
-    S. D. Fotopoulou, K. D. Pitilakis, Predictive relationships for seismically induced slope
-    displacements using numerical analysis results, Bull. Earthquake Eng. 13 (2015), 3207-3238.
-    Coefficients as in OpenQuake.
     """
 
-    source = "Fotopoulou and Pitilakis 2015, Bull. Earthquake Eng. 13, 3207-3238"
+    source = (
+        "S. D. Fotopoulou, K. D. Pitilakis, Predictive relationships for seismically induced"
+        " slope displacements using numerical analysis results, Bull. Earthquake Eng. 13 (2015),"
+        " 3207-3238. Coefficients as in OpenQuake."
+    )
     unit = "m"
     forms: tuple[Form, ...] = (
         Form("form a", ("pgv", "M"), "-9.891 + 1.873 ln pgv - 5.964 ky + 0.285 M", "0.65"),
