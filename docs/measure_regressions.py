@@ -13,6 +13,7 @@ import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
+from itertools import starmap
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -218,16 +219,6 @@ HEADING = (
 # ---- public packages
 
 
-class Variant(NamedTuple):
-    """What a package computes instead, as predicted / predicted here."""
-
-    package: str
-    model: str
-    difference: str
-    where: str
-    ratio: Callable[[], np.ndarray | float]
-
-
 def of_form(name: str, index: int = 0) -> Form:
     return [form for form in FORMS if form.name.startswith(name)][index]
 
@@ -275,89 +266,57 @@ def least_ratio() -> np.ndarray:
     return of_r[-1] / of_r[:-1]
 
 
-VARIANTS = (
-    Variant(
-        "pygeems, `slope_disp.py`",
-        "Bray, Travasarou 2007",
-        "no magnitude term",
-        "all",
+# What a package computes instead, and as predicted / predicted here.
+VARIANTS: tuple[tuple[str, Callable[[], np.ndarray | float]], ...] = (
+    (
+        "pygeems, `slope_disp.py` | Bray, Travasarou 2007 | no magnitude term | all",
         lambda: np.exp(-0.278 * (arguments()["M"] - 7)),
     ),
-    Variant(
-        "newmark (R), `Dn_BT07.R`",
-        "Bray, Travasarou 2007",
-        "no term 1.50 Ts",
-        "Ts = 0.33 s",
+    (
+        "newmark (R), `Dn_BT07.R` | Bray, Travasarou 2007 | no term 1.50 Ts | Ts = 0.33 s",
         lambda: math.exp(-1.50 * 0.33),
     ),
-    Variant(
-        "OpenSRA, `Landslide.py`",
-        "Bray, Travasarou 2007",
-        "Sa at 1.3 Ts for 1.5 Ts",
-        "Ts = 0.3 s",
+    (
+        "OpenSRA, `Landslide.py` | Bray, Travasarou 2007 | Sa at 1.3 Ts for 1.5 Ts | Ts = 0.3 s",
         other_spectral_period,
     ),
-    Variant(
-        "SLAMMER",
-        "Bray, Travasarou 2007",
-        "-1.10 also for rigid masses",
-        "Ts < 0.05 s",
+    (
+        "SLAMMER | Bray, Travasarou 2007 | -1.10 also for rigid masses | Ts < 0.05 s",
         lambda: math.exp(-1.10 + 0.22),
     ),
-    Variant(
-        "pygeems, `slope_disp.py`",
-        "Bray, Macedo, Travasarou 2018",
-        "3.535 for 3.353",
-        "all",
+    (
+        "pygeems, `slope_disp.py` | Bray, Macedo, Travasarou 2018 | 3.535 for 3.353 | all",
         lambda: LEVELS ** (3.353 - 3.535),
     ),
-    Variant(
-        "pygeems, `slope_disp.py`",
-        "Rathje, Antonakos 2011: PGA, M",
-        "min(3.69 Ts - 1.22 Ts^2, 2.78)",
-        "Ts = 2 s",
+    (
+        "pygeems, `slope_disp.py` | Rathje, Antonakos 2011: PGA, M"
+        " | min(3.69 Ts - 1.22 Ts^2, 2.78) | Ts = 2 s",
         lambda: math.exp(3.69 * 2 - 1.22 * 4 - 2.78),
     ),
-    Variant(
-        "OpenSRA, `Landslide.py`",
-        "Rathje, Antonakos 2011: PGA, M",
-        "Tm for Ts",
-        "Ts = 0.3 s",
+    (
+        "OpenSRA, `Landslide.py` | Rathje, Antonakos 2011: PGA, M | Tm for Ts | Ts = 0.3 s",
         mean_period_for_period,
     ),
-    Variant(
-        "pynewmarkdisp",
-        "Saygili, Rathje 2008: PGA",
-        "20.93 for 20.39",
-        "r < 1",
+    (
+        "pynewmarkdisp | Saygili, Rathje 2008: PGA | 20.93 for 20.39 | r < 1",
         lambda: np.exp(-0.54 * sliding_ratio() ** 2),
     ),
-    Variant(
-        "OpenQuake, a branch of 2017, `gdem/scalar.py`",
-        "Jibson 2007, (6)",
-        "ln for log; 0.51 as sigma of ln D",
-        "all",
+    (
+        "OpenQuake, a branch of 2017, `gdem/scalar.py` | Jibson 2007, (6)"
+        " | ln for log; 0.51 as sigma of ln D | all",
         lambda: math.exp(0.215) / 10**0.215,
     ),
-    Variant(
-        "the same",
-        "Jibson 2007, (9)",
-        "ln for log; 0.616 as sigma of ln D",
-        "all",
+    (
+        "the same | Jibson 2007, (9) | ln for log; 0.616 as sigma of ln D | all",
         lambda: math.exp(-3.230) / 10**-3.230,
     ),
-    Variant(
-        "OpenQuake, `sep/landslide/displacement.py`",
-        "Jibson 2007, (6) and others",
-        "r of at least 0.05",
-        "r < 0.05, (6)",
+    (
+        "OpenQuake, `sep/landslide/displacement.py` | Jibson 2007, (6) and others"
+        " | r of at least 0.05 | r < 0.05, (6)",
         least_ratio,
     ),
-    Variant(
-        "newmark (R), `Dn_YG91.R`",
-        "Yegian et al. 1991",
-        "D* without its unit, as cm",
-        "all",
+    (
+        "newmark (R), `Dn_YG91.R` | Yegian et al. 1991 | D* without its unit, as cm | all",
         without_dimension,
     ),
 )
@@ -370,11 +329,11 @@ def number(ratio: float) -> str:
     return np.format_float_positional(ratio, precision=2, fractional=False, trim="-")
 
 
-def compared(one: Variant) -> list[str]:
-    ratios = np.ravel(one.ratio())
+def compared(variant: str, ratio: Callable[[], np.ndarray | float]) -> list[str]:
+    ratios = np.ravel(ratio())
     spread = "" if ratios.size == 1 else f"{number(ratios.min())} to {number(ratios.max())}"
     middle = number(float(np.median(ratios)))
-    return [one.package, one.model, one.difference, one.where, middle, spread]
+    return [*variant.split(" | "), middle, spread]
 
 
 # ---- the page
@@ -385,7 +344,7 @@ def tables() -> dict[str, str]:
         "models": table(HEADING, [row(one) for one in referees()]),
         "packages": table(
             "| package, file | model | difference | where | its D / ours: median | extremes |",
-            [compared(one) for one in VARIANTS],
+            starmap(compared, VARIANTS),
         ),
     }
 
