@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from .. import Coulomb, Lognormal
 from .options import add_options
-from .output import check_whole
+from .output import check_whole, json_text
 from .reading import RECORDS, Records
 
 if TYPE_CHECKING:
@@ -99,9 +99,9 @@ def _fragility(args: argparse.Namespace) -> str:
     records = Records(args)
     report = records.report
     motions = [found.motion for found in records]
-    _ = report.failures  # before the progress of the sweep
+    failures = report.failures  # before the progress of the sweep
     if not motions:
-        return report.answer((), [], ())
+        return json_text({"results": [], **failures}) if args.json else ""
     # Both components of a station are one record for the intervals.
     suite = Suite(motions, {"record": records_of_names([motion.name for motion in motions])})
     count = len(set(suite.metadata["record"].tolist()))
@@ -127,8 +127,8 @@ def _fragility(args: argparse.Namespace) -> str:
         friction = f"mu = {args.mu:g}" + (f", beta = {args.mu_beta:g}" if args.mu_beta else "")
         title = f"{count} record{'s' if count > 1 else ''}, {friction}"
         report.save(f.plot(level=_LEVEL if count > 1 else None, title=title))
-    about = {"records": count, "method": f.method}
-    return report.answer(rows[0], rows, _lines(rows, f.im_range), **about)
+    lines = _lines(rows, f.im_range)
+    return report.answer(rows[0], rows, lines, records=count, method=f.method)
 
 
 def _rows(f: Fragility, bands: Bands | None) -> list[dict[str, Any]]:

@@ -66,11 +66,9 @@ class Report:
             plotting.check_suffix(plot)
             numbered = len(files) > 1 and not getattr(args, "one_picture", False)
             self._pictures = [  # a number distinguishes records of the same name
-                plot.with_stem(f"{plot.stem}-{place}-{file.stem}")
-                for place, file in enumerate(files, 1)
+                plot.with_stem(f"{plot.stem}-{place}-{file.stem}") if numbered else plot
+                for place, file in enumerate(files if numbered else [plot], 1)
             ]
-            if not numbered:
-                self._pictures = [plot]
         outputs = [("--plot", picture) for picture in self._pictures]
         check_outputs([*outputs, *([("--csv", args.csv)] if args.csv else [])], inputs)
 
@@ -90,11 +88,8 @@ class Report:
         from .. import plotting
 
         picture = self._pictures[found.place if found else 0]
-        if (
-            parts := [str(part) for part in (found.member, found.component) if part]
-            if found
-            else []
-        ):
+        parts = [str(part) for part in (found.member, found.component) if part] if found else []
+        if parts:
             picture = picture.with_stem("-".join([picture.stem, *parts]))
             check_outputs([("--plot", picture)], self.inputs)
         plotting.save(figure, picture)
