@@ -13,18 +13,17 @@ import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
+from itertools import starmap
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import stickslip as ss
-from measured_page import draw, rewrite, table
+from measured_page import DOCS, G, rewrite, samples, spread, table
 from stickslip import regressions
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-DOCS = Path(__file__).parent
 PAGE = DOCS / "regressions.md"
 PICTURE = DOCS / "images" / "regressions.png"
 
@@ -104,11 +103,6 @@ FORMS = (
 
 
 @cache
-def samples() -> ss.Suite:
-    return ss.sample_records()
-
-
-@cache
 def arguments() -> dict[str, np.ndarray | float]:
     """What no measure of a record gives: one row for each record."""
     suite = samples()
@@ -135,7 +129,7 @@ def predict(form: Form, ts: float = 0.0) -> regressions.Prediction:
 
 def peak_ground_acceleration() -> np.ndarray:
     """PGA [g], shape (records, 1)."""
-    return ss.strong_motion(samples()).peak_acceleration[:, None] / ss.STANDARD_GRAVITY
+    return ss.strong_motion(samples()).peak_acceleration[:, None] / G
 
 
 # ---- the models beside exact sliding
@@ -202,13 +196,12 @@ def referees() -> tuple[Referee, ...]:
 
 
 def row(one: Referee) -> list[str]:
-    low, high = np.exp(np.percentile(one.error, (16, 84)))
     sigma = "unknown" if one.sigma is None else f"{one.sigma.mean():.2f}"
     return [
         one.form.name,
         f"{one.bias:.2f}",
         f"{math.exp(one.uncertainty):.2f}",
-        f"{low:.2f} to {high:.2f}",
+        spread(np.exp(one.error))[1],
         f"{one.scatter:.2f}",
         sigma,
         "" if one.within is None else f"{100 * one.within:.0f} %",
@@ -226,16 +219,6 @@ HEADING = (
 # ---- public packages
 
 
-class Variant(NamedTuple):
-    """What a package computes instead, as predicted / predicted here."""
-
-    package: str
-    model: str
-    difference: str
-    where: str
-    ratio: Callable[[], np.ndarray | float]
-
-
 def of_form(name: str, index: int = 0) -> Form:
     return [form for form in FORMS if form.name.startswith(name)][index]
 
@@ -247,7 +230,7 @@ def at(name: str, ts: float = FLEXIBLE, index: int = 0) -> regressions.Predictio
 def other_spectral_period() -> np.ndarray:
     """Bray and Travasarou with Sa at 1.3 Ts."""
     right = at("Bray, Travasarou")
-    sa = ss.response_spectrum(samples(), 1.3 * FLEXIBLE).values / ss.STANDARD_GRAVITY
+    sa = ss.response_spectrum(samples(), 1.3 * FLEXIBLE).values / G
     wrong = regressions.BrayTravasarou2007().predict(
         ky=LEVELS, Sa=np.reshape(sa, (-1, 1)), Ts=FLEXIBLE, M=arguments()["M"]
     )
@@ -266,7 +249,7 @@ def mean_period_for_period() -> np.ndarray:
 def without_dimension() -> np.ndarray:
     """Yegian's D* taken as centimeters."""
     given = at("Yegian").arguments
-    unit = given["pga"] * ss.STANDARD_GRAVITY * given["Neq"] * given["T"] ** 2
+    unit = given["pga"] * G * given["Neq"] * given["T"] ** 2
     return 0.01 / unit
 
 
@@ -283,89 +266,57 @@ def least_ratio() -> np.ndarray:
     return of_r[-1] / of_r[:-1]
 
 
-VARIANTS = (
-    Variant(
-        "pygeems, `slope_disp.py`",
-        "Bray, Travasarou 2007",
-        "no magnitude term",
-        "all",
+# What a package computes instead, and as predicted / predicted here.
+VARIANTS: tuple[tuple[str, Callable[[], np.ndarray | float]], ...] = (
+    (
+        "pygeems, `slope_disp.py` | Bray, Travasarou 2007 | no magnitude term | all",
         lambda: np.exp(-0.278 * (arguments()["M"] - 7)),
     ),
-    Variant(
-        "newmark (R), `Dn_BT07.R`",
-        "Bray, Travasarou 2007",
-        "no term 1.50 Ts",
-        "Ts = 0.33 s",
+    (
+        "newmark (R), `Dn_BT07.R` | Bray, Travasarou 2007 | no term 1.50 Ts | Ts = 0.33 s",
         lambda: math.exp(-1.50 * 0.33),
     ),
-    Variant(
-        "OpenSRA, `Landslide.py`",
-        "Bray, Travasarou 2007",
-        "Sa at 1.3 Ts for 1.5 Ts",
-        "Ts = 0.3 s",
+    (
+        "OpenSRA, `Landslide.py` | Bray, Travasarou 2007 | Sa at 1.3 Ts for 1.5 Ts | Ts = 0.3 s",
         other_spectral_period,
     ),
-    Variant(
-        "SLAMMER",
-        "Bray, Travasarou 2007",
-        "-1.10 also for rigid masses",
-        "Ts < 0.05 s",
+    (
+        "SLAMMER | Bray, Travasarou 2007 | -1.10 also for rigid masses | Ts < 0.05 s",
         lambda: math.exp(-1.10 + 0.22),
     ),
-    Variant(
-        "pygeems, `slope_disp.py`",
-        "Bray, Macedo, Travasarou 2018",
-        "3.535 for 3.353",
-        "all",
+    (
+        "pygeems, `slope_disp.py` | Bray, Macedo, Travasarou 2018 | 3.535 for 3.353 | all",
         lambda: LEVELS ** (3.353 - 3.535),
     ),
-    Variant(
-        "pygeems, `slope_disp.py`",
-        "Rathje, Antonakos 2011: PGA, M",
-        "min(3.69 Ts - 1.22 Ts^2, 2.78)",
-        "Ts = 2 s",
+    (
+        "pygeems, `slope_disp.py` | Rathje, Antonakos 2011: PGA, M"
+        " | min(3.69 Ts - 1.22 Ts^2, 2.78) | Ts = 2 s",
         lambda: math.exp(3.69 * 2 - 1.22 * 4 - 2.78),
     ),
-    Variant(
-        "OpenSRA, `Landslide.py`",
-        "Rathje, Antonakos 2011: PGA, M",
-        "Tm for Ts",
-        "Ts = 0.3 s",
+    (
+        "OpenSRA, `Landslide.py` | Rathje, Antonakos 2011: PGA, M | Tm for Ts | Ts = 0.3 s",
         mean_period_for_period,
     ),
-    Variant(
-        "pynewmarkdisp",
-        "Saygili, Rathje 2008: PGA",
-        "20.93 for 20.39",
-        "r < 1",
+    (
+        "pynewmarkdisp | Saygili, Rathje 2008: PGA | 20.93 for 20.39 | r < 1",
         lambda: np.exp(-0.54 * sliding_ratio() ** 2),
     ),
-    Variant(
-        "OpenQuake, a branch of 2017, `gdem/scalar.py`",
-        "Jibson 2007, (6)",
-        "ln for log; 0.51 as sigma of ln D",
-        "all",
+    (
+        "OpenQuake, a branch of 2017, `gdem/scalar.py` | Jibson 2007, (6)"
+        " | ln for log; 0.51 as sigma of ln D | all",
         lambda: math.exp(0.215) / 10**0.215,
     ),
-    Variant(
-        "the same",
-        "Jibson 2007, (9)",
-        "ln for log; 0.616 as sigma of ln D",
-        "all",
+    (
+        "the same | Jibson 2007, (9) | ln for log; 0.616 as sigma of ln D | all",
         lambda: math.exp(-3.230) / 10**-3.230,
     ),
-    Variant(
-        "OpenQuake, `sep/landslide/displacement.py`",
-        "Jibson 2007, (6) and others",
-        "r of at least 0.05",
-        "r < 0.05, (6)",
+    (
+        "OpenQuake, `sep/landslide/displacement.py` | Jibson 2007, (6) and others"
+        " | r of at least 0.05 | r < 0.05, (6)",
         least_ratio,
     ),
-    Variant(
-        "newmark (R), `Dn_YG91.R`",
-        "Yegian et al. 1991",
-        "D* without its unit, as cm",
-        "all",
+    (
+        "newmark (R), `Dn_YG91.R` | Yegian et al. 1991 | D* without its unit, as cm | all",
         without_dimension,
     ),
 )
@@ -378,11 +329,11 @@ def number(ratio: float) -> str:
     return np.format_float_positional(ratio, precision=2, fractional=False, trim="-")
 
 
-def compared(one: Variant) -> list[str]:
-    ratios = np.ravel(one.ratio())
+def compared(variant: str, ratio: Callable[[], np.ndarray | float]) -> list[str]:
+    ratios = np.ravel(ratio())
     spread = "" if ratios.size == 1 else f"{number(ratios.min())} to {number(ratios.max())}"
     middle = number(float(np.median(ratios)))
-    return [one.package, one.model, one.difference, one.where, middle, spread]
+    return [*variant.split(" | "), middle, spread]
 
 
 # ---- the page
@@ -393,7 +344,7 @@ def tables() -> dict[str, str]:
         "models": table(HEADING, [row(one) for one in referees()]),
         "packages": table(
             "| package, file | model | difference | where | its D / ours: median | extremes |",
-            [compared(one) for one in VARIANTS],
+            starmap(compared, VARIANTS),
         ),
     }
 
@@ -462,8 +413,7 @@ def figure() -> Figure:
 
 def main() -> None:
     warnings.simplefilter("ignore", regressions.RangeWarning)  # of the smallest and largest ky
-    rewrite(PAGE, tables().values())
-    draw(PICTURE, figure)
+    rewrite(PAGE, tables().values(), {PICTURE: figure})
 
 
 if __name__ == "__main__":

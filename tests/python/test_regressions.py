@@ -528,3 +528,13 @@ def test_each_model_is_public():
     public = {getattr(ss.regressions, name) for name in ss.regressions.__all__}
     assert {type(model) for model, _ in FORMS} <= public
     assert ss.regressions.__name__ == "stickslip.regressions"
+
+
+@every_form
+def test_the_docstring_shows_what_is_computed(model, given):
+    text = " ".join(type(model).__doc__.split())
+    for form in model.forms:
+        assert f"{model.base} D = {form.equation} sigma = {form.sigma or 'unknown'}" in text
+    for name, equation in model.where.items():
+        assert f"{name} = {equation}" in text
+    assert text.endswith(f"References ---------- {model.source}")
