@@ -356,6 +356,12 @@ def test_the_tables_have_every_row_and_column():
     assert all(list(row) == [*THEORIES, "`harmonic.orbits`"] for row in theories.values())
 
 
+def test_the_tables_have_every_law():
+    laws = [one for one in vars(ss).values() if isinstance(one, type)]
+    laws = [one for one in laws if issubclass(one, ss.FrictionLaw) and one is not ss.FrictionLaw]
+    assert {type(law) for law in LAWS.values()} == set(laws)
+
+
 def test_the_parameters_of_the_laws_are_as_the_library_says():
     text = page().split("## Parameters of the laws\n", 1)[1].split("\n## ")[0]
     rows = [line for line in text.splitlines() if line.startswith("| `")]
