@@ -2,15 +2,8 @@
 #pragma once
 
 #include "stickslip/error.hpp"
-#include "stickslip/friction/caster.hpp"
-#include "stickslip/friction/coulomb.hpp"
-#include "stickslip/friction/degrading.hpp"
-#include "stickslip/friction/kumar.hpp"
 #include "stickslip/friction/law.hpp"
-#include "stickslip/friction/multi_pendulum.hpp"
-#include "stickslip/friction/static_kinetic.hpp"
-#include "stickslip/friction/stribeck.hpp"
-#include "stickslip/friction/velocity_dependent.hpp"
+#include "stickslip/friction/laws.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/ground/harmonic_motion.hpp"
 #include "stickslip/ground/segment.hpp"

@@ -14,7 +14,6 @@
 #include "stickslip/excitation/spectrum.hpp"
 #include "stickslip/excitation/with_transverse.hpp"
 #include "stickslip/excitation/with_vertical.hpp"
-#include "stickslip/friction/function_law.hpp"
 #include "stickslip/friction/pendulum_loop.hpp"
 #include "stickslip/ground/intensity_measures.hpp"
 #include "stickslip/ground/orientation.hpp"

@@ -27,9 +27,14 @@ struct SurfaceMotion {
   ElementMotion motion;
 };
 
+template <class Law>
+using IsStaticKinetic = std::bool_constant<is_static_kinetic<Law>>;
+template <class... Laws>
+std::variant<Laws...> any_of(LawList<Laws...>);  // for types only
+
 /// The Python class StaticKinetic.
-using AnyStaticKinetic = std::variant<StaticKinetic<Coulomb>, StaticKinetic<Caster>, StaticKinetic<VelocityDependent>,
-                                      StaticKinetic<Degrading>>;
+using StaticKineticLaws = LibraryLaws::where<IsStaticKinetic>;
+using AnyStaticKinetic = decltype(any_of(StaticKineticLaws()));
 
 }  // namespace stickslip::python
 
@@ -46,16 +51,9 @@ inline std::string literal(double value) {
 }
 
 void bind_errors(py::module_& m);
-void bind_coulomb(py::module_& m);
-void bind_caster(py::module_& m);
-void bind_velocity_dependent(py::module_& m);
-void bind_stribeck(py::module_& m);
-void bind_degrading(py::module_& m);
-void bind_kumar(py::module_& m);
-void bind_multi_pendulum(py::module_& m);
-void bind_element_motion(py::module_& m);
-void bind_callable_law(py::module_& m);
+void bind_laws(py::module_& m);
 void bind_static_kinetic(py::module_& m);
+void bind_element_motion(py::module_& m);
 void bind_stops(py::module_& m);
 void bind_slider(py::module_& m);
 void bind_identity(py::module_& m);
@@ -65,6 +63,7 @@ void bind_harmonic(py::module_& m);
 void bind_histories(py::module_& m);
 void bind_records(py::module_& m);
 void bind_response(py::module_& m);
+void bind_state(py::module_& m);
 void bind_advance(py::module_& m);
 void bind_integrate(py::module_& m);
 void bind_planar_slider(py::module_& m);
@@ -109,6 +108,18 @@ void bind_transport(py::module_& m);
 void bind_thesis(py::module_& m);
 void bind_build_info(py::module_& m);
 
+/// Binds a law of the library, in friction/<law>.cpp. (StaticKinetic is one class.)
+template <FrictionLaw Law>
+void bind_law(py::module_& m);
+#define STICKSLIP_BOUND(...) \
+  template <>                \
+  void bind_law<__VA_ARGS__>(py::module_ & m);
+STICKSLIP_LAWS(STICKSLIP_BOUND)
+#undef STICKSLIP_BOUND
+
+/// The Python class FrictionLaw, from which all laws are derived there.
+class AnyLaw {};
+
 /// Gives all functions and classes of the module signatures that Python can read, and plain-language errors.
 void make_plain(py::module_& m);
 
@@ -139,25 +150,37 @@ py::object law_object(const StaticKinetic<Law>& law) {
 }
 inline py::object law_object(const FunctionLaw& law) { return py::cast(*law.resist_function().target<CallableLaw>()); }
 
+/// The C++ class of a law that is bound to Python.
+template <class Law>
+struct BoundLaw {
+  using type = Law;
+};
+template <>
+struct BoundLaw<FunctionLaw> {
+  using type = CallableLaw;
+};
+template <class Law>
+struct BoundLaw<StaticKinetic<Law>> {
+  using type = AnyStaticKinetic;
+};
+
 /// The slider without spring of a law; nullopt if the object is not a law. (Implicit conversions would need the frame
 /// of a bound function, which threads do not have.)
-template <class... Laws>
-std::optional<AnySlider> slider_of_law(const py::handle& object, const std::variant<Slider<Laws>...>*) {
-  std::optional<AnySlider> slider;
-  const auto take = [&]<class Law>(const Law*) {
-    if constexpr (std::same_as<Law, FunctionLaw>) {
-      if (py::isinstance<CallableLaw>(object)) slider = Slider(object.cast<const CallableLaw&>().law());
-    } else {
-      if (py::isinstance<Law>(object)) slider = Slider<Law>(object.cast<const Law&>());
-    }
-  };
-  (take(static_cast<const Laws*>(nullptr)), ...);
-  if (py::isinstance<AnyStaticKinetic>(object))
-    std::visit([&](const auto& law) { slider = Slider(law); }, object.cast<const AnyStaticKinetic&>());
-  return slider;
-}
 inline std::optional<AnySlider> slider_of_law(const py::handle& object) {
-  return slider_of_law(object, static_cast<const AnySlider*>(nullptr));
+  std::optional<AnySlider> slider;
+  LibraryLaws::for_each([&]<class Law>() {
+    using Bound = typename BoundLaw<Law>::type;
+    if (slider || !py::isinstance<Bound>(object)) return;
+    const auto& law = object.cast<const Bound&>();
+    if constexpr (std::same_as<Law, Bound>) {
+      slider = Slider(law);
+    } else if constexpr (is_static_kinetic<Law>) {
+      if (const auto* const one = std::get_if<Law>(&law)) slider = Slider(*one);
+    } else {
+      slider = Slider(law.law());
+    }
+  });
+  return slider;
 }
 
 /// The slider that an object is, or that it defines as a law; nullopt if it is neither.

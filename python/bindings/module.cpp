@@ -44,14 +44,8 @@ PYBIND11_MODULE(_core, m) {
   const std::string compiled = py::str(m.attr("__name__"));
   in("stickslip");
   bind_errors(m);
-  bind_coulomb(m);
-  bind_caster(m);
-  bind_velocity_dependent(m);
-  bind_stribeck(m);
-  bind_degrading(m);
-  bind_kumar(m);
-  bind_callable_law(m);
-  bind_static_kinetic(m);
+  bind_state(m);
+  bind_laws(m);
   bind_stops(m);
   bind_slider(m);
   bind_viscous(m);
@@ -59,7 +53,6 @@ PYBIND11_MODULE(_core, m) {
   bind_harmonic_motion(m);
   bind_records(m);
   bind_advance(m);
-  bind_multi_pendulum(m);
   bind_element_motion(m);
   bind_response(m);
   bind_integrate(m);

@@ -317,13 +317,22 @@ std::size_t hash_of(const T& value) {
   return hash;
 }
 
+/// Binds a class, in Python a FrictionLaw if it is one.
+template <class T, class... Bases>
+py::class_<T, Bases...> bound_class(py::module_& m, const char* name, const char* doc) {
+  if constexpr (FrictionLaw<T> || std::same_as<T, CallableLaw>)
+    return {m, name, m.attr("FrictionLaw"), doc};
+  else
+    return {m, name, doc};
+}
+
 /// A class of immutable objects, which compare by content and can be hashed, copied and pickled.
 /// @tparam Bases  bound classes from which it is derived
 template <MadeOfParts T, class... Bases>
 py::class_<T, Bases...> value_class(py::module_& m, const char* name, std::string doc) {
   doc.insert(std::min(doc.find("\n\n"), doc.size()),
              "\n\nObjects compare by content; they can be hashed, copied and pickled.");
-  py::class_<T, Bases...> type(m, name, doc.c_str());
+  auto type = bound_class<T, Bases...>(m, name, doc.c_str());
   type.def(
           "__eq__",
           [](const T& self, const py::object& other) -> py::object {  // `const T&` would convert a law to a slider

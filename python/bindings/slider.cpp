@@ -53,17 +53,6 @@ AnySlider mounted(const py::object& law, const Mounting& mounting) {
       alone(law));
 }
 
-template <class... Laws>
-void convert_laws(const std::variant<Slider<Laws>...>*) {
-  const auto convert = []<class Law>(const Law*) {
-    if constexpr (!std::same_as<Law, FunctionLaw> && !requires(const Law& law) { law.sliding(); })
-      py::implicitly_convertible<Law, AnySlider>();
-  };
-  (convert(static_cast<const Laws*>(nullptr)), ...);
-  py::implicitly_convertible<CallableLaw, AnySlider>();
-  py::implicitly_convertible<AnyStaticKinetic, AnySlider>();
-}
-
 // A state at rest; `temperature` [degrees Celsius] matters to laws that depend on it.
 State slid_to(const AnySlider& slider, double displacement, double sliding_distance,
               std::optional<double> temperature) {
@@ -163,8 +152,7 @@ acceleration [m/s^2]; on level ground without vertical motion p = -n and N = g. 
 
 Parameters
 ----------
-law : Coulomb, Caster, VelocityDependent, Stribeck, Degrading, KumarFriction, MultiPendulum, Law or
-    StaticKinetic
+law : FrictionLaw
     The friction at rest and while sliding.
 natural_frequency : float, optional
     wn of the mass on its spring, without friction [rad/s]; finite and at least 0; 0 means no spring.
@@ -203,7 +191,7 @@ Functions that take a slider also take a law: a slider on level ground without s
              py::arg("damping") = py::none(), py::kw_only(), py::arg("period") = py::none(),
              py::arg("damping_ratio") = py::none(), py::arg("slope_degrees") = 0.0, py::arg("one_way") = false,
              py::arg("stops") = py::none(), py::arg("pendulum") = false);
-  convert_laws(static_cast<const AnySlider*>(nullptr));
+  py::implicitly_convertible<AnyLaw, AnySlider>();
   slider
       .def_static(
           "in_cup",
@@ -226,8 +214,7 @@ A pendulum whose length is the radius of the cup minus that of the wheel: wn = s
 
 Parameters
 ----------
-law : Coulomb, Caster, VelocityDependent, Stribeck, Degrading, KumarFriction, MultiPendulum, Law or
-    StaticKinetic
+law : FrictionLaw
 cup_radius : float
     Radius of curvature of the cup [m], positive and finite.
 wheel_radius : float, optional

@@ -55,7 +55,10 @@ class _Pybind11Type(type): ...  # the metaclass of all below; its true name cann
 class ConvergenceError(RuntimeError): ...
 class PlausibilityWarning(UserWarning): ...
 
-class Coulomb(metaclass=_Pybind11Type):
+class FrictionLaw(metaclass=_Pybind11Type):
+    def __init__(self, *args: NoReturn, **kwargs: NoReturn) -> None: ...
+
+class Coulomb(FrictionLaw):
     @overload
     def __init__(
         self,
@@ -87,7 +90,7 @@ class Coulomb(metaclass=_Pybind11Type):
     def __getstate__(self) -> tuple[float, float]: ...
     def __setstate__(self, state: tuple[float, float], /) -> None: ...
 
-class Caster(metaclass=_Pybind11Type):
+class Caster(FrictionLaw):
     @overload
     def __init__(
         self, *, mu: _Number, slip_level: None = None, reach: _Number, rolling: _Number = 0.0
@@ -118,7 +121,7 @@ class Caster(metaclass=_Pybind11Type):
     def __getstate__(self) -> tuple[float, float, float]: ...
     def __setstate__(self, state: tuple[float, float, float], /) -> None: ...
 
-class VelocityDependent(metaclass=_Pybind11Type):
+class VelocityDependent(FrictionLaw):
     @overload
     def __init__(
         self,
@@ -174,7 +177,7 @@ class VelocityDependent(metaclass=_Pybind11Type):
     def __getstate__(self) -> tuple[float, float, float]: ...
     def __setstate__(self, state: tuple[float, float, float], /) -> None: ...
 
-class Stribeck(metaclass=_Pybind11Type):
+class Stribeck(FrictionLaw):
     def __init__(
         self,
         *,
@@ -202,7 +205,7 @@ class Stribeck(metaclass=_Pybind11Type):
     def __getstate__(self) -> tuple[float, float, float, int]: ...
     def __setstate__(self, state: tuple[float, float, float, int], /) -> None: ...
 
-class Degrading(metaclass=_Pybind11Type):
+class Degrading(FrictionLaw):
     @overload
     def __init__(
         self,
@@ -253,7 +256,7 @@ class Degrading(metaclass=_Pybind11Type):
         self, state: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]], /
     ) -> None: ...
 
-class KumarFriction(metaclass=_Pybind11Type):
+class KumarFriction(FrictionLaw):
     def __init__(
         self,
         *,
@@ -287,7 +290,7 @@ class KumarFriction(metaclass=_Pybind11Type):
     def __getstate__(self) -> tuple[tuple[float, ...]]: ...
     def __setstate__(self, state: tuple[tuple[float, ...]], /) -> None: ...
 
-class MultiPendulum(metaclass=_Pybind11Type):
+class MultiPendulum(FrictionLaw):
     def __init__(
         self,
         radii: _Samples,
@@ -393,7 +396,7 @@ def QuintuplePendulum(
     radii: _Samples, mu: _Samples, capacities: _Samples | None = None, restitution: _Number = 0.0
 ) -> MultiPendulum: ...
 
-class Law(metaclass=_Pybind11Type):
+class Law(FrictionLaw):
     def __init__(
         self,
         *,
@@ -420,10 +423,10 @@ class SurfaceHeat(metaclass=_Pybind11Type):
     def __getstate__(self) -> tuple[list[float]]: ...
     def __setstate__(self, state: tuple[list[float]], /) -> None: ...
 
-class StaticKinetic(metaclass=_Pybind11Type):
+class StaticKinetic(FrictionLaw):
     def __init__(
         self,
-        sliding: Coulomb | Caster | VelocityDependent | Degrading | None = None,
+        sliding: FrictionLaw | None = None,
         *,
         mu_static: _Number | tuple[_Number, _Number] | None = None,
         mu_kinetic: _Number | tuple[_Number, _Number] | None = None,
@@ -431,7 +434,7 @@ class StaticKinetic(metaclass=_Pybind11Type):
         kinetic: _Number | tuple[_Number, _Number] | None = None,
     ) -> None: ...
     @property
-    def sliding(self) -> Coulomb | Caster | VelocityDependent | Degrading: ...
+    def sliding(self) -> FrictionLaw: ...
     @property
     def static(self) -> float: ...
     @property
@@ -440,12 +443,8 @@ class StaticKinetic(metaclass=_Pybind11Type):
     def static_backward(self) -> float: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
-    def __getstate__(
-        self,
-    ) -> tuple[Coulomb | Caster | VelocityDependent | Degrading, float, float]: ...
-    def __setstate__(
-        self, state: tuple[Coulomb | Caster | VelocityDependent | Degrading, float, float], /
-    ) -> None: ...
+    def __getstate__(self) -> tuple[FrictionLaw, float, float]: ...
+    def __setstate__(self, state: tuple[FrictionLaw, float, float], /) -> None: ...
 
 class Stops(metaclass=_Pybind11Type):
     def __init__(
@@ -462,22 +461,10 @@ class Stops(metaclass=_Pybind11Type):
     def __getstate__(self) -> tuple[float, float, float]: ...
     def __setstate__(self, state: tuple[float, float, float], /) -> None: ...
 
-_Law: TypeAlias = (
-    Coulomb
-    | Caster
-    | VelocityDependent
-    | Stribeck
-    | Degrading
-    | KumarFriction
-    | MultiPendulum
-    | Law
-    | StaticKinetic
-)
-
 class Slider(metaclass=_Pybind11Type):
     def __init__(
         self,
-        law: _Law,
+        law: FrictionLaw,
         natural_frequency: _Number | None = None,
         damping: _Number | None = None,
         *,
@@ -490,14 +477,14 @@ class Slider(metaclass=_Pybind11Type):
     ) -> None: ...
     @staticmethod
     def in_cup(
-        law: _Law,
+        law: FrictionLaw,
         *,
         cup_radius: _Number,
         wheel_radius: _Number = 0.0,
         damping: _Number = 0.0,
     ) -> Slider: ...
     @property
-    def law(self) -> _Law: ...
+    def law(self) -> FrictionLaw: ...
     @property
     def natural_frequency(self) -> float: ...
     @property
@@ -535,15 +522,15 @@ class Slider(metaclass=_Pybind11Type):
     ) -> float: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
-    def __getstate__(self) -> tuple[_Law, float, float, float, bool, Stops, bool]: ...
+    def __getstate__(self) -> tuple[FrictionLaw, float, float, float, bool, Stops, bool]: ...
     def __setstate__(
-        self, state: tuple[_Law, float, float, float, bool, Stops, bool], /
+        self, state: tuple[FrictionLaw, float, float, float, bool, Stops, bool], /
     ) -> None: ...
 
 class PlanarSlider(metaclass=_Pybind11Type):
     def __init__(
         self,
-        law: _Law | Slider,
+        law: FrictionLaw | Slider,
         natural_frequency: _Number | None = None,
         damping: _Number | None = None,
         *,
@@ -556,7 +543,7 @@ class PlanarSlider(metaclass=_Pybind11Type):
     @property
     def along_axis(self) -> Slider: ...
     @property
-    def law(self) -> _Law: ...
+    def law(self) -> FrictionLaw: ...
     @property
     def natural_frequency(self) -> float: ...
     @property
@@ -588,12 +575,12 @@ def FrictionPendulum(
     mu_slow: _Number | None = None,
     mu_fast: _Number | None = None,
     rate: _Number | None = None,
-    law: _Law | None = None,
+    law: FrictionLaw | None = None,
     stops: Stops | None = None,
     damping: _Number = 0.0,
 ) -> Slider: ...
 
-_AnySlider: TypeAlias = Slider | _Law
+_AnySlider: TypeAlias = Slider | FrictionLaw
 
 def ViscousSlider(damping: _Number, natural_frequency: _Number = 0.0) -> Slider: ...
 
@@ -2990,6 +2977,7 @@ def _units_remark(sliders: Sequence[PlanarSlider], motions: Sequence[GroundMotio
 def _check_unit(
     quantity: str, who: str, name: str, values: _Samples | float, depth: SupportsIndex = 2
 ) -> None: ...
+def _laws() -> dict[str, list[tuple[str, str, str, str]]]: ...
 def _plausible_ranges() -> dict[str, tuple[float, float]]: ...
 def _warn_if_implausible(
     motion: GroundMotion, who: str, depth: SupportsIndex = 1, recorded: bool = True
@@ -3013,7 +3001,7 @@ def run_ensemble(
     interrupted: Callable[[Callable[[], Ensemble]], object] | None,
 ) -> Ensemble: ...
 @overload
-def identity(of: Slider | _Law, /) -> str: ...
+def identity(of: Slider | FrictionLaw, /) -> str: ...
 @overload
 def identity(of: PlanarSlider, /) -> str: ...
 @overload

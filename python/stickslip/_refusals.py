@@ -29,6 +29,7 @@ _WORDS = {
     "_Samples": "an array of numbers",
     "NDArray": "an array of numbers",
     "Callable": "a function",
+    "FrictionLaw": "a friction law",
     "PathLike": "a path",
     "Sequence": "a sequence",
     "Iterable": "a sequence",

@@ -33,41 +33,45 @@ std::string name_of_law(const StaticKinetic<Law>& law) {
   return "StaticKinetic(" + name_of_law(law.sliding()) + ")";
 }
 
-// The laws of a list of sliders, for messages.
-template <class First, class... Laws>
-std::string laws_of(const std::variant<PlanarSlider<First>, PlanarSlider<Laws>...>*) {
-  std::string names;
-  const auto add = [&]<class Law>(const Law*) {
-    if constexpr (requires { Law::class_name; }) names += std::string(", ") + Law::class_name;
-  };
-  (add(static_cast<const Laws*>(nullptr)), ...);
-  return First::class_name + std::string(" with equal levels") + names + ", and StaticKinetic of these";
+// Why a law cannot be the same in all directions, if it says so.
+template <class Law>
+std::string why_not(const Law&) {
+  if constexpr (requires { Law::not_isotropic; })
+    return std::string(": ") + Law::not_isotropic;
+  else
+    return "";
+}
+template <class Law>
+std::string why_not(const StaticKinetic<Law>& law) {
+  return why_not(law.sliding());
 }
 
-template <class Law, class... Laws>
-constexpr bool can_be_planar(const std::variant<PlanarSlider<Laws>...>*) {
-  return (std::same_as<Law, Laws> || ...);
+// The laws for the plane, for messages.
+std::string planar_laws() {
+  std::string names;
+  PlanarLaws::for_each([&]<class Law>() {
+    if constexpr (requires { Law::class_name; })
+      names +=
+          names.empty() ? std::string(Law::class_name) + " with equal levels" : std::string(", ") + Law::class_name;
+  });
+  return names + ", and StaticKinetic of these";
 }
 
 }  // namespace
 
 AnyPlanarSlider planar(const AnySlider& slider) {
-  constexpr const AnyPlanarSlider* list = nullptr;
   const auto refuse = [](const std::string& why) {
-    throw std::invalid_argument("PlanarSlider: " + why + "; laws for the plane are " + laws_of(list));
+    throw std::invalid_argument("PlanarSlider: " + why + "; laws for the plane are " + planar_laws());
   };
   return std::visit(
       [&]<class Law>(const Slider<Law>& one) -> AnyPlanarSlider {
         const std::string name = name_of_law(one.law());
-        if constexpr (can_be_planar<Law>(list)) {
+        if constexpr (IsotropicLaw<Law>) {
           if (!one.law().isotropic())
             refuse(name + " must have equal levels forward and backward to be the same in all directions");
           return PlanarSlider<Law>(one);
         } else {
-          refuse(name + " cannot be used, because its friction is not defined in all directions" +
-                 (name.find(Caster::class_name) == std::string::npos
-                      ? std::string()
-                      : std::string(": every wheel of a caster would have its own angle")));
+          refuse(name + " cannot be used, because its friction is not defined in all directions" + why_not(one.law()));
           throw;  // not reached
         }
       },

@@ -74,10 +74,21 @@ class WithinStructureSegment final : public StructureSink {
   double begin_;
 };
 
-/// Move through a segment. Compiled once for each law, in engines.cpp.
+/// The event loop. Compiled once for each law, in engines.cpp; empty for a law that an interface cannot have.
+template <FrictionLaw Law, bool = interface_law<Law>>
+struct StructureEngine {};
+template <FrictionLaw Law>
+struct StructureEngine<Law, true> {
+  static void move(const ModalInterface& of, const Law& law, const LoadSegment& segment, StructureState& state,
+                   LawExpansion<Law>& expansion, StructureSink& sink);
+};
+
+/// Move through a segment.
 template <FrictionLaw Law>
 void move_structure(const ModalInterface& of, const Law& law, const LoadSegment& segment, StructureState& state,
-                    LawExpansion<Law>& expansion, StructureSink& sink);
+                    LawExpansion<Law>& expansion, StructureSink& sink) {
+  StructureEngine<Law>::move(of, law, segment, state, expansion, sink);
+}
 
 /// What the interface can hold in both directions while it is stuck, under its weight [m/s^2].
 struct StuckLevels {

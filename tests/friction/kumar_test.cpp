@@ -281,7 +281,7 @@ TEST_CASE("bad parameters of KumarFriction are named", "[kumar]") {
     change(p);
     REQUIRE_THROWS_WITH(KumarFriction(p), Catch::Matchers::ContainsSubstring(message));
   };
-  refuses([](Parameters& p) { p.mu_ref = -0.1; }, "mu_ref must be from 0 to 1e300, got -0.1");
+  refuses([](Parameters& p) { p.mu_ref = -0.1; }, "mu_ref must be from 0 to 1e+300, got -0.1");
   refuses([](Parameters& p) { p.static_pressure = 0; }, "static_pressure must be positive");
   refuses([](Parameters& p) { p.static_pressure = 2e9; }, "pressures are in Pa");
   refuses([](Parameters& p) { p.reference_pressure = not_a_number; }, "reference_pressure must be positive");

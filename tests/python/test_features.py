@@ -356,6 +356,23 @@ def test_the_tables_have_every_row_and_column():
     assert all(list(row) == [*THEORIES, "`harmonic.orbits`"] for row in theories.values())
 
 
+def test_the_tables_have_every_law():
+    laws = [one for one in vars(ss).values() if isinstance(one, type)]
+    laws = [one for one in laws if issubclass(one, ss.FrictionLaw) and one is not ss.FrictionLaw]
+    assert {type(law) for law in LAWS.values()} == set(laws)
+
+
+def test_the_parameters_of_the_laws_are_as_the_library_says():
+    text = page().split("## Parameters of the laws\n", 1)[1].split("\n## ")[0]
+    rows = [line for line in text.splitlines() if line.startswith("| `")]
+    cells = [
+        (f"`{law}`", f"`{name}`", *words)
+        for law, parts in ss._core._laws().items()
+        for name, *words in parts
+    ]
+    assert rows == ["|" + "".join(f" {cell} |" if cell else " |" for cell in row) for row in cells]
+
+
 def test_every_footnote_is_used_and_explained():
     used = {c for t in ("Analyses", "Theories") for row in table(t).values() for c in row.values()}
     explained = set(re.findall(r"^- ([a-z]): ", page(), re.MULTILINE))

@@ -175,7 +175,10 @@ def test_no_refusal_has_a_word_of_the_binding_library():
 
 SAID = {
     "law": (lambda: ss.Slider(0.2), "Slider: law must be a friction law, such as Coulomb"),
-    "slider": (lambda: ss.integrate(0.2, QUAKE), "integrate: slider must be a Slider, a Coulomb"),
+    "slider": (
+        lambda: ss.integrate(0.2, QUAKE),
+        "integrate: slider must be a Slider, a friction law, a PlanarSlider",
+    ),
     "motion": (lambda: ss.integrate(BLOCK, [1, 2]), "integrate: motion must be a GroundMotion or"),
     "missing": (lambda: ss.integrate(BLOCK), "integrate: needs motion, got none"),
     "text": (lambda: QUAKE.scaled("x"), "GroundMotion.scaled: factor must be a number, got 'x'"),

@@ -68,17 +68,7 @@ r = ss.integrate(cart, quake, displacement=0.0, velocity=0.0)
 r = ss.integrate(block, quake, settle=True)
 x: NDArray[np.float64] = r.displacement
 kinds = r.events["kind"]
-law: (
-    ss.Coulomb
-    | ss.Caster
-    | ss.VelocityDependent
-    | ss.Stribeck
-    | ss.Degrading
-    | ss.KumarFriction
-    | ss.MultiPendulum
-    | ss.Law
-    | ss.StaticKinetic
-) = r.slider.law
+law: ss.FrictionLaw = r.slider.law
 work: float = r.energy.input + r.energy.dissipated + r.energy.kinetic + r.energy.elastic
 forces: NDArray[np.float64] = r.force + r.acceleration
 sticking: NDArray[np.bool_] = ~r.stuck

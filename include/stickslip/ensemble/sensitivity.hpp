@@ -13,7 +13,6 @@
 #include "stickslip/ensemble/member.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
-#include "stickslip/friction/stribeck.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/integrate.hpp"
 #include "stickslip/sliding/response.hpp"
@@ -65,7 +64,7 @@ void require_differentiable_mean(const Slider<Law>& slider) {
   };
   if constexpr (form_of<Law> == Form::numeric)
     refuse("a law given as functions of numbers, whose derivatives are not known");
-  else if constexpr (LawWithHold<Law> || std::same_as<Law, Stribeck>)
+  else if constexpr (LawWithHold<Law> || requires { requires Law::static_above_kinetic; })
     refuse(
         "static friction above kinetic: its response jumps where a decision changes, and the mean of the derivatives "
         "leaves the jumps out");

@@ -27,6 +27,14 @@ namespace stickslip {
 class Caster {
  public:
   static constexpr bool symmetric = true;
+  static constexpr const char* not_isotropic = "every wheel of a caster would have its own angle";
+
+  static constexpr const char* class_name = "Caster";
+  static constexpr auto parts() {
+    return std::tuple(Part{"slip_level", &Caster::slip_level, "a", "m/s^2", Range::at_least(0)},
+                      Part{"reach", &Caster::reach, "", "m", Range::above(0).or_infinite()},
+                      Part{"rolling", &Caster::rolling, "", "m/s^2", Range::at_least(0), Listed::unless_zero});
+  }
 
   /// @param slip_level  a, force per unit mass at x = 0, where the wheel is perpendicular to the motion [m/s^2],
   ///                    finite and at least 0
@@ -35,11 +43,7 @@ class Caster {
   /// @throws std::invalid_argument naming the value
   Caster(double slip_level, double reach, double rolling = 0)
       : slip_level_(slip_level), reach_(reach), rolling_(rolling + 0.0) {  // minus zero is zero
-    detail::require(std::isfinite(slip_level) && slip_level >= 0, "Caster: slip_level must be finite and at least 0",
-                    slip_level, "m/s^2");
-    detail::require(reach > 0, "Caster: reach must be positive", reach, "m");
-    detail::require(std::isfinite(rolling) && rolling >= 0, "Caster: rolling must be finite and at least 0", rolling,
-                    "m/s^2");
+    detail::check_parts(*this, class_name);
   }
 
   /// The law from the mechanics of a rigid wheel that trails its pivot (thesis appendix A, corrected).
@@ -75,12 +79,8 @@ class Caster {
   double slip_level() const noexcept { return slip_level_; }
   double reach() const noexcept { return reach_; }
   double rolling() const noexcept { return rolling_; }
-
-  static constexpr const char* class_name = "Caster";
-  static constexpr auto parts() {
-    return std::tuple(Part{"slip_level", &Caster::slip_level}, Part{"reach", &Caster::reach},
-                      Part{"rolling", &Caster::rolling, Listed::unless_zero});
-  }
+  /// The distance over which the level changes [m].
+  double length_scale() const noexcept { return reach_; }
 
   template <class T>
   auto resist(const T& x, Direction) const {

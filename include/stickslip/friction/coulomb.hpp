@@ -23,6 +23,12 @@ class Coulomb {
  public:
   static constexpr bool constant_while_sliding = true;
 
+  static constexpr const char* class_name = "Coulomb";
+  static constexpr auto parts() {
+    return std::tuple(Part{"slip_level", &Coulomb::forward, "a", "m/s^2", Range::at_least(0)},
+                      Part{"backward", &Coulomb::backward, "", "m/s^2", Range::at_least(0).or_infinite()});
+  }
+
   /// @param slip_level  a, force per unit mass [m/s^2], finite and at least 0 (0 is frictionless)
   /// @throws std::invalid_argument naming the value
   explicit Coulomb(double slip_level) : Coulomb(slip_level, slip_level) {}
@@ -31,9 +37,7 @@ class Coulomb {
   /// @param backward    against backward sliding [m/s^2], at least 0; infinite: never slides backward
   /// @throws std::invalid_argument naming the value
   Coulomb(double slip_level, double backward) : forward_(slip_level), backward_(backward) {
-    detail::require(std::isfinite(slip_level) && slip_level >= 0, "Coulomb: slip_level must be finite and at least 0",
-                    slip_level, "m/s^2");
-    detail::require(backward >= 0, "Coulomb: backward must be at least 0", backward, "m/s^2");
+    detail::check_parts(*this, class_name);
   }
 
   /// A block on level ground: a = mu g.
@@ -47,11 +51,6 @@ class Coulomb {
   double backward() const noexcept { return backward_; }
   /// Whether the levels are equal.
   bool isotropic() const noexcept { return detail::equal(forward_, backward_); }
-
-  static constexpr const char* class_name = "Coulomb";
-  static constexpr auto parts() {
-    return std::tuple(Part{"slip_level", &Coulomb::forward}, Part{"backward", &Coulomb::backward});
-  }
 
   template <class T>
   double resist(const T&, Direction direction) const noexcept {

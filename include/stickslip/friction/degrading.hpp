@@ -87,8 +87,9 @@ class Degrading {
 
   static constexpr const char* class_name = "Degrading";
   static constexpr auto parts() {
-    return std::tuple(Part{"distances", &Degrading::distances}, Part{"levels", &Degrading::levels},
-                      Part{"backward", &Degrading::backward});
+    return std::tuple(Part{"distances", &Degrading::distances, "s_i", "m", Range::at_least(0)},
+                      Part{"levels", &Degrading::levels, "a_i", "m/s^2", Range::at_least(0)},
+                      Part{"backward", &Degrading::backward, "", "m/s^2", Range::at_least(0)});
   }
 
   /// The law that applies from a state on.

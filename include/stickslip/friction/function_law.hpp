@@ -1,9 +1,15 @@
 // A friction law from functions that are known only when the program runs.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
+#include "stickslip/error.hpp"
+#include "stickslip/friction/law.hpp"
 #include "stickslip/state.hpp"
 
 namespace stickslip {
@@ -23,11 +29,19 @@ class FunctionLaw {
   /// @param resist  resistance to sliding; at least 0, finite, and continuous in x and speed
   /// @param hold    largest friction at rest; at least the resistance at zero speed, which is the default
   /// @throws std::invalid_argument  `resist` is empty
-  explicit FunctionLaw(Resist resist, Hold hold = {});
+  explicit FunctionLaw(Resist resist, Hold hold = {})
+      : functions_(std::make_shared<Functions>(std::move(resist), std::move(hold))) {
+    if (!functions_->resist) throw std::invalid_argument("FunctionLaw: needs a function `resist`, got an empty one");
+  }
 
   /// @throws InvalidLevel  the function returned a level that is negative or not finite
-  double resist(double x, double speed, Direction direction) const;
-  double hold(double x, Direction direction) const;
+  double resist(double x, double speed, Direction direction) const {
+    return checked(functions_->resist(x, speed, direction), "resist", x, speed);
+  }
+  double hold(double x, Direction direction) const {
+    if (!functions_->hold) return resist(x, 0, direction);
+    return checked(functions_->hold(x, direction), "hold", x, 0);
+  }
 
   const Resist& resist_function() const noexcept { return functions_->resist; }
   /// Empty if it was not given.
@@ -37,7 +51,16 @@ class FunctionLaw {
   struct Functions {
     Resist resist;
     Hold hold;
+    Functions(Resist resists, Hold holds) : resist(std::move(resists)), hold(std::move(holds)) {}
   };
+
+  static double checked(double level, const char* name, double x, double speed) {
+    if (level >= 0 && std::isfinite(level)) return level;
+    throw InvalidLevel(std::string("Law: ") + name + " must be finite and at least 0, got " + detail::shortest(level) +
+                       " m/s^2 at x = " + detail::shortest(x) + " m and a speed of " + detail::shortest(speed) +
+                       " m/s");
+  }
+
   std::shared_ptr<const Functions> functions_;
 };
 

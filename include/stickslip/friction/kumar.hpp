@@ -45,11 +45,16 @@ class KumarFriction {
     double conductivity = 18;       ///< k, of the steel [W/(m K)], positive; infinite for a surface that stays cold
 
     static constexpr auto parts() {
-      return std::tuple(Part{"mu_ref", &Parameters::mu_ref}, Part{"static_pressure", &Parameters::static_pressure},
-                        Part{"reference_pressure", &Parameters::reference_pressure},
-                        Part{"contact_radius", &Parameters::contact_radius},
-                        Part{"temperature", &Parameters::temperature}, Part{"rate", &Parameters::rate},
-                        Part{"diffusivity", &Parameters::diffusivity}, Part{"conductivity", &Parameters::conductivity});
+      constexpr Range positive = Range::above(0);
+      return std::tuple(
+          Part{"mu_ref", &Parameters::mu_ref, "mu_ref", "", Range::between(0, 1e300)},
+          Part{"static_pressure", &Parameters::static_pressure, "static_pressure", "Pa", positive},
+          Part{"reference_pressure", &Parameters::reference_pressure, "p0", "Pa", positive},
+          Part{"contact_radius", &Parameters::contact_radius, "contact_radius", "m", positive.or_infinite()},
+          Part{"temperature", &Parameters::temperature, "T0", "degrees Celsius", Range::between(-100, 400)},
+          Part{"rate", &Parameters::rate, "rate", "s/m", Range::at_least(0)},
+          Part{"diffusivity", &Parameters::diffusivity, "D", "m^2/s", positive},
+          Part{"conductivity", &Parameters::conductivity, "k", "W/(m K)", positive.or_infinite()});
     }
     friend bool operator==(const Parameters&, const Parameters&) = default;
   };
@@ -74,22 +79,11 @@ class KumarFriction {
 
   /// @throws std::invalid_argument naming the value
   explicit KumarFriction(const Parameters& parameters) : parameters_(parameters) {
-    const auto check = [](bool met, const char* rule, double value, const char* unit) {
-      detail::require(met, std::string("KumarFriction: ") + rule, value, unit);
-    };
     const Parameters& p = parameters_;
-    const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
-    check(p.mu_ref >= 0 && p.mu_ref <= 1e300, "mu_ref must be from 0 to 1e300", p.mu_ref, "");
-    check(positive(p.static_pressure), "static_pressure must be positive and finite", p.static_pressure, "Pa");
-    check(positive(p.reference_pressure), "reference_pressure must be positive and finite", p.reference_pressure, "Pa");
-    check(p.static_pressure < 1e9 && p.reference_pressure < 1e9, "pressures are in Pa and must be below 1e9 Pa",
-          std::max(p.static_pressure, p.reference_pressure), "Pa");
-    check(p.contact_radius > 0, "contact_radius must be positive", p.contact_radius, "m");
-    check(p.temperature >= -100 && p.temperature <= 400, "temperature must be from -100 to 400", p.temperature,
-          "degrees Celsius");
-    check(std::isfinite(p.rate) && p.rate >= 0, "rate must be finite and at least 0", p.rate, "s/m");
-    check(positive(p.diffusivity), "diffusivity must be positive and finite", p.diffusivity, "m^2/s");
-    check(p.conductivity > 0, "conductivity must be positive", p.conductivity, "W/(m K)");
+    detail::check_parts(p, class_name);
+    detail::require(p.static_pressure < 1e9 && p.reference_pressure < 1e9,
+                    "KumarFriction: pressures are in Pa and must be below 1e9 Pa",
+                    std::max(p.static_pressure, p.reference_pressure), "Pa");
     warming_ = std::sqrt(p.diffusivity) * std::numbers::inv_sqrtpi / p.conductivity;
     edge_ = p.contact_radius * std::sqrt(std::numbers::pi / 4);
     static_scale_ = scale(1);

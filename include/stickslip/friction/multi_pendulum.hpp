@@ -114,9 +114,11 @@ class MultiPendulum {
   static constexpr bool symmetric = true;
   static constexpr const char* class_name = "MultiPendulum";
   static constexpr auto parts() {
-    return std::tuple(Part{"radii", &MultiPendulum::radii}, Part{"mu", &MultiPendulum::mu},
-                      Part{"capacities", &MultiPendulum::capacities}, Part{"restitution", &MultiPendulum::restitution},
-                      Part{"nested", &MultiPendulum::nested, Listed::unless_zero});
+    return std::tuple(Part{"radii", &MultiPendulum::radii, "R_k", "m", Range::above(0).or_infinite()},
+                      Part{"mu", &MultiPendulum::mu, "mu_k", "", Range::above(0)},
+                      Part{"capacities", &MultiPendulum::capacities, "d_k", "m", Range::above(0).or_infinite()},
+                      Part{"restitution", &MultiPendulum::restitution, "", "", Range::between(0, 1)},
+                      Part{"nested", &MultiPendulum::nested, "", "", Range::between(0, 1), Listed::unless_zero});
   }
 
   /// The law up to the next change, for a motion in either direction from a given state.

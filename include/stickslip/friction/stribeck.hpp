@@ -20,7 +20,16 @@ namespace stickslip {
 class Stribeck {
  public:
   static constexpr bool symmetric = true;
+  static constexpr bool static_above_kinetic = true;
   static constexpr int max_exponent = 31;
+
+  static constexpr const char* class_name = "Stribeck";
+  static constexpr auto parts() {
+    return std::tuple(Part{"static", &Stribeck::static_level, "a_static", "m/s^2", Range::at_least(0)},
+                      Part{"kinetic", &Stribeck::kinetic_level, "a_kinetic", "m/s^2", Range::at_least(0)},
+                      Part{"velocity", &Stribeck::velocity, "velocity", "m/s", Range::above(0).or_infinite()},
+                      Part{"exponent", &Stribeck::exponent, "exponent", "", Range::between(1, max_exponent)});
+  }
 
   /// @param static_level   a_static, force per unit mass at rest [m/s^2], finite and at least the kinetic one
   /// @param kinetic_level  a_kinetic, force per unit mass at high speed [m/s^2], finite and at least 0
@@ -29,29 +38,21 @@ class Stribeck {
   /// @throws std::invalid_argument naming the value
   Stribeck(double static_level, double kinetic_level, double velocity, int exponent)
       : static_(static_level), kinetic_(kinetic_level), velocity_(velocity), exponent_(exponent) {
-    detail::require(std::isfinite(kinetic_level) && kinetic_level >= 0,
-                    "Stribeck: the kinetic level must be finite and at least 0", kinetic_level, "m/s^2");
-    detail::require(std::isfinite(static_level) && static_level >= kinetic_level,
+    detail::check_parts(*this, class_name);
+    detail::require(static_level >= kinetic_level,
                     "Stribeck: the static level must be finite and at least the kinetic one of " +
                         detail::shortest(kinetic_level) + " m/s^2",
                     static_level, "m/s^2");
-    detail::require(velocity > 0, "Stribeck: velocity must be positive", velocity, "m/s");
-    detail::require(exponent >= 1 && exponent <= max_exponent, "Stribeck: exponent must be a whole number from 1 to 31",
-                    exponent);
   }
 
   double static_level() const noexcept { return static_; }
   double kinetic_level() const noexcept { return kinetic_; }
   double velocity() const noexcept { return velocity_; }
   int exponent() const noexcept { return exponent_; }
+  /// The speed over which the level changes [m/s].
+  double speed_scale() const noexcept { return velocity_; }
 
   static constexpr bool isotropic() noexcept { return true; }
-
-  static constexpr const char* class_name = "Stribeck";
-  static constexpr auto parts() {
-    return std::tuple(Part{"static", &Stribeck::static_level}, Part{"kinetic", &Stribeck::kinetic_level},
-                      Part{"velocity", &Stribeck::velocity}, Part{"exponent", &Stribeck::exponent});
-  }
 
   template <class X, class Speed>
   auto resist(const X&, const Speed& speed, Direction) const {

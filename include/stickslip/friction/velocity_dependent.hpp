@@ -22,30 +22,28 @@ class VelocityDependent {
  public:
   static constexpr bool symmetric = true;
 
+  static constexpr const char* class_name = "VelocityDependent";
+  static constexpr auto parts() {
+    return std::tuple(Part{"slow", &VelocityDependent::slow, "a_slow", "m/s^2", Range::at_least(0)},
+                      Part{"fast", &VelocityDependent::fast, "a_fast", "m/s^2", Range::at_least(0)},
+                      Part{"rate", &VelocityDependent::rate, "rate", "s/m", Range::at_least(0)});
+  }
+
   /// @param slow  a_slow, force per unit mass at rest [m/s^2], finite and at least 0
   /// @param fast  a_fast, force per unit mass at high speed [m/s^2], finite and at least 0
   /// @param rate  [s/m], finite and at least 0; 63 % of the change is reached at a speed of 1 / rate
   /// @throws std::invalid_argument naming the value
   VelocityDependent(double slow, double fast, double rate) : slow_(slow), fast_(fast), rate_(rate) {
-    detail::require(std::isfinite(slow) && slow >= 0, "VelocityDependent: slow must be finite and at least 0", slow,
-                    "m/s^2");
-    detail::require(std::isfinite(fast) && fast >= 0, "VelocityDependent: fast must be finite and at least 0", fast,
-                    "m/s^2");
-    detail::require(std::isfinite(rate) && rate >= 0, "VelocityDependent: rate must be finite and at least 0", rate,
-                    "s/m");
+    detail::check_parts(*this, class_name);
   }
 
   double slow() const noexcept { return slow_; }
   double fast() const noexcept { return fast_; }
   double rate() const noexcept { return rate_; }
+  /// The speed over which the level changes [m/s].
+  double speed_scale() const noexcept { return 1 / rate_; }
 
   static constexpr bool isotropic() noexcept { return true; }
-
-  static constexpr const char* class_name = "VelocityDependent";
-  static constexpr auto parts() {
-    return std::tuple(Part{"slow", &VelocityDependent::slow}, Part{"fast", &VelocityDependent::fast},
-                      Part{"rate", &VelocityDependent::rate});
-  }
 
   template <class X, class Speed>
   auto resist(const X&, const Speed& speed, Direction) const {

@@ -33,10 +33,25 @@ bool rests(const PlanarSlider<Law>& slider, const PlanarLoadSegment& segment, co
          dot(change, change) >= holds_change * holds_change;
 }
 
-/// The event loop over any segment. The library contains it for its laws.
+/// The event loop. The library contains it for its laws; empty for a law that is not the same in all directions.
+template <FrictionLaw Law, bool = IsotropicLaw<Law>>
+struct PlaneEngine {};
+template <FrictionLaw Law>
+struct PlaneEngine<Law, true> {
+  static void advance(const PlanarSlider<Law>& slider, const PlanarLoadSegment& segment, Contact contact,
+                      PlanarState& state, PlanarSink& sink);
+};
+
+/// Moves through any segment.
 template <IsotropicLaw Law>
 void advance_plane(const PlanarSlider<Law>& slider, const PlanarLoadSegment& segment, Contact contact,
                    PlanarState& state, PlanarSink& sink) {
+  PlaneEngine<Law>::advance(slider, segment, contact, state, sink);
+}
+
+template <FrictionLaw Law>
+void PlaneEngine<Law, true>::advance(const PlanarSlider<Law>& slider, const PlanarLoadSegment& segment, Contact contact,
+                                     PlanarState& state, PlanarSink& sink) {
   if (!state.in_flight && state.mode == PlanarMode::stuck && rests(slider, segment, state)) return;
   const auto move = [&](const PlanarLoadSegment& part, double begin, bool touching) {
     if (!(part.duration > 0)) return;

@@ -3,15 +3,11 @@
 
 #include <functional>
 #include <span>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
-#include "stickslip/friction/coulomb.hpp"
-#include "stickslip/friction/degrading.hpp"
-#include "stickslip/friction/kumar.hpp"
-#include "stickslip/friction/static_kinetic.hpp"
-#include "stickslip/friction/stribeck.hpp"
-#include "stickslip/friction/velocity_dependent.hpp"
+#include "stickslip/friction/laws.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/planar/floor_motion.hpp"
 #include "stickslip/planar/forces.hpp"
@@ -27,12 +23,21 @@
 
 namespace stickslip {
 
-/// A slider in the plane of any law of the library that can be the same in all directions; this is the list of these
-/// laws. The library contains all computations for it, compiled, as for AnySlider.
-using AnyPlanarSlider =
-    std::variant<PlanarSlider<Coulomb>, PlanarSlider<VelocityDependent>, PlanarSlider<Stribeck>,
-                 PlanarSlider<Degrading>, PlanarSlider<KumarFriction>, PlanarSlider<StaticKinetic<Coulomb>>,
-                 PlanarSlider<StaticKinetic<VelocityDependent>>, PlanarSlider<StaticKinetic<Degrading>>>;
+namespace detail {
+
+template <class Law>
+using IsIsotropic = std::bool_constant<IsotropicLaw<Law>>;
+template <class... Laws>
+std::variant<PlanarSlider<Laws>...> planar_sliders_of(LawList<Laws...>);  // for types only
+
+}  // namespace detail
+
+/// The laws of the library that can be the same in all directions.
+using PlanarLaws = LibraryLaws::where<detail::IsIsotropic>;
+
+/// A slider in the plane of any of these laws. The library contains all computations for it, compiled, as for
+/// AnySlider.
+using AnyPlanarSlider = decltype(detail::planar_sliders_of(PlanarLaws()));
 
 /// The same law and mounting in the plane.
 /// @throws std::invalid_argument  a law that is not the same in all directions, `one_way`, or stops with unequal gaps

@@ -7,15 +7,7 @@
 #include <optional>
 #include <variant>
 
-#include "stickslip/friction/caster.hpp"
-#include "stickslip/friction/coulomb.hpp"
-#include "stickslip/friction/degrading.hpp"
-#include "stickslip/friction/function_law.hpp"
-#include "stickslip/friction/kumar.hpp"
-#include "stickslip/friction/multi_pendulum.hpp"
-#include "stickslip/friction/static_kinetic.hpp"
-#include "stickslip/friction/stribeck.hpp"
-#include "stickslip/friction/velocity_dependent.hpp"
+#include "stickslip/friction/laws.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/ground/harmonic_motion.hpp"
 #include "stickslip/ground/segment.hpp"
@@ -29,15 +21,19 @@ namespace stickslip {
 
 class Trajectory;
 
-/// A slider of any law of the library; this is the list of its laws. The library contains all computations for it,
-/// compiled: a program that uses this type, such as the Python package, compiles no integrator.
+namespace detail {
+
+template <class... Laws>
+std::variant<Slider<Laws>...> sliders_of(LawList<Laws...>);  // for types only
+
+}  // namespace detail
+
+/// A slider of any law of the library (friction/laws.hpp). The library contains all computations for it, compiled: a
+/// program that uses this type, such as the Python package, compiles no integrator.
 ///
-///     const AnySlider slider = Slider(Stribeck(3, 2, 0.05), 1.5);
+///     const AnySlider slider = Slider(Coulomb(3), 1.5);
 ///     const Response response = integrate(slider, motion);
-using AnySlider = std::variant<Slider<Coulomb>, Slider<Caster>, Slider<VelocityDependent>, Slider<Stribeck>,
-                               Slider<Degrading>, Slider<KumarFriction>, Slider<MultiPendulum>, Slider<FunctionLaw>,
-                               Slider<StaticKinetic<Coulomb>>, Slider<StaticKinetic<Caster>>,
-                               Slider<StaticKinetic<VelocityDependent>>, Slider<StaticKinetic<Degrading>>>;
+using AnySlider = decltype(detail::sliders_of(LibraryLaws()));
 
 /// The mounting of a slider of any law.
 inline const Mounting& mounting_of(const AnySlider& slider) {

@@ -4,7 +4,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <string>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "bindings.hpp"
@@ -25,6 +28,23 @@ inline std::string level_argument(double level, const std::string& mu_name = "mu
       return mu_name + "=" + detail::shortest(mu);
   }
   return level_name + "=" + itself;
+}
+
+/// The repr of a law whose parts are numbers, under the names of its constructor: levels [m/s^2] as above, with "mu" for
+/// "slip_level" and "mu_slow" for "slow".
+template <WithParts Law>
+std::string repr_of(const Law& law) {
+  std::string text;
+  const auto add = [&](const auto& part) {
+    const auto value = static_cast<double>(std::invoke(part.get, law));
+    if (part.listed == Listed::unless_zero && value == 0) return;
+    const std::string name = part.name;
+    text += (text.empty() ? "" : ", ") + (std::string_view(part.unit) == "m/s^2"
+                                              ? level_argument(value, name == "slip_level" ? "mu" : "mu_" + name, name)
+                                              : name + "=" + literal(value));
+  };
+  std::apply([&](const auto&... part) { (add(part), ...); }, Law::parts());
+  return Law::class_name + ("(" + text) + ")";
 }
 
 /// Numbers as a list of Python.

@@ -121,7 +121,8 @@ FunctionLaw CallableLaw::law() const {
   });
 }
 
-void bind_callable_law(py::module_& m) {
+template <>
+void bind_law<FunctionLaw>(py::module_& m) {
   auto type = value_class<CallableLaw>(m, "Law", R"doc(A friction law of your own, from functions.
 
 Parameters

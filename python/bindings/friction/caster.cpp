@@ -5,7 +5,8 @@
 
 namespace stickslip::python {
 
-void bind_caster(py::module_& m) {
+template <>
+void bind_law<Caster>(py::module_& m) {
   auto type =
       value_class<Caster>(m, "Caster",
                           R"(A rigid mass on casters, thesis (2.27): the slip level is a sech(x / reach) + rolling.

@@ -5,7 +5,8 @@
 
 namespace stickslip::python {
 
-void bind_coulomb(py::module_& m) {
+template <>
+void bind_law<Coulomb>(py::module_& m) {
   auto type = value_class<Coulomb>(m, "Coulomb", R"(Coulomb friction: a constant slip level, thesis (2.20).
 
 f = a sgn(x'), where a = mu g is the slip level: the friction force per unit mass if the normal force is g. The levels

@@ -60,7 +60,8 @@ std::string levels_argument(const std::vector<double>& levels, const std::string
 
 }  // namespace
 
-void bind_degrading(py::module_& m) {
+template <>
+void bind_law<Degrading>(py::module_& m) {
   auto type = value_class<Degrading>(m, "Degrading",
                                      R"(Friction that degrades, or wears in, with the distance slid.
 

@@ -2,62 +2,15 @@
 
 #include <pybind11/stl.h>
 
-#include <algorithm>
-#include <array>
-#include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "friction/arguments.hpp"
 #include "parts.hpp"
 
 namespace stickslip::python {
 
-void bind_kumar(py::module_& m) {
-  value_class<SurfaceHeat>(
-      m, "SurfaceHeat",
-      R"(Heat left in a sliding surface, `State.heat`: the memory of friction that depends on temperature.
-
-Parameters
-----------
-modes : array_like, shape (42,), optional
-    The modes [J/m^2]; a cold surface without them.
-
-Raises
-------
-ValueError
-    Another number of modes; one that is not finite.
-
-Notes
------
-The surface of a half-space that was heated with q(t) [W/m^2] is warmer by sqrt(D) / (k sqrt(pi)) times the half-integral
-H, the integral of q(t - tau) / sqrt(tau) over tau > 0. The kernel 1 / sqrt(tau) is a sum of 42 exponentials, each the
-memory of one mode: H is within 6e-7 of its largest value, for heat that lasts from 1 us to 500 s.)")
-      .def(py::init([](const py::object& modes) {
-             if (modes.is_none()) return SurfaceHeat();
-             const std::vector<double> values = to_vector(modes, "SurfaceHeat: modes", "J/m^2");
-             std::array<double, SurfaceHeat::modes> all{};
-             if (values.size() != all.size())
-               throw std::invalid_argument("SurfaceHeat: modes must be " + std::to_string(all.size()) + ", got " +
-                                           std::to_string(values.size()));
-             std::copy(values.begin(), values.end(), all.begin());
-             return SurfaceHeat(all);
-           }),
-           py::arg("modes") = py::none())
-      .def_property_readonly(
-          "modes",
-          [](const SurfaceHeat& heat) {
-            const auto values = heat.values();
-            return to_array(std::vector<double>(values.begin(), values.end()));
-          },
-          "The modes [J/m^2], shape (42,).")
-      .def_property_readonly("half_integral", &SurfaceHeat::half_integral, "H [W s^(1/2)/m^2].")
-      .def("__repr__", [](const SurfaceHeat& heat) {
-        return heat.half_integral() > 0
-                   ? "<SurfaceHeat: half-integral " + detail::shortest(heat.half_integral()) + " W s^(1/2)/m^2>"
-                   : std::string("<SurfaceHeat: cold>");
-      });
-
+template <>
+void bind_law<KumarFriction>(py::module_& m) {
   auto type =
       value_class<KumarFriction>(m, "KumarFriction",
                                  R"(Friction of a sliding isolator that depends on pressure, speed and temperature.

@@ -74,7 +74,8 @@ ElementMotion motion_of(const PendulumLoop& loop) {
 
 }  // namespace
 
-void bind_multi_pendulum(py::module_& m) {
+template <>
+void bind_law<MultiPendulum>(py::module_& m) {
   auto type = value_class<MultiPendulum>(
       m, "MultiPendulum",
       R"(A friction pendulum isolator with several sliding surfaces, in one horizontal direction.

@@ -46,13 +46,16 @@ AnyStaticKinetic make_static_kinetic(const py::object& sliding, const std::optio
   }
   if (mu_kinetic || kinetic)
     throw std::invalid_argument("StaticKinetic: give a sliding law, or mu_kinetic or kinetic, got both");
-  if (py::isinstance<Coulomb>(sliding)) return with(sliding.cast<Coulomb>());
-  if (py::isinstance<Caster>(sliding)) return with(sliding.cast<Caster>());
-  if (py::isinstance<VelocityDependent>(sliding)) return with(sliding.cast<VelocityDependent>());
-  if (py::isinstance<Degrading>(sliding)) return with(sliding.cast<Degrading>());
-  throw py::type_error(
-      "StaticKinetic: the sliding law must be a Coulomb, Caster, VelocityDependent or Degrading, got " +
-      py::type::of(sliding).attr("__name__").cast<std::string>());
+  std::optional<AnyStaticKinetic> made;
+  std::string names;
+  StaticKineticLaws::for_each([&]<class Law>() {
+    using Sliding = std::remove_cvref_t<decltype(std::declval<const Law&>().sliding())>;
+    if (py::isinstance<Sliding>(sliding)) made = with(sliding.cast<Sliding>());
+    names += (names.empty() ? "" : ", ") + std::string(Sliding::class_name);
+  });
+  if (made) return *std::move(made);
+  throw py::type_error("StaticKinetic: the sliding law must be one of " + names + ", got " +
+                       py::type::of(sliding).attr("__name__").cast<std::string>());
 }
 
 py::object sliding_of(const AnyStaticKinetic& law) {
@@ -68,7 +71,7 @@ double backward_of(const AnyStaticKinetic& law) {
 }  // namespace
 
 void bind_static_kinetic(py::module_& m) {
-  py::class_<AnyStaticKinetic> type(m, "StaticKinetic", R"(Static friction above kinetic.
+  py::class_<AnyStaticKinetic> type(m, "StaticKinetic", m.attr("FrictionLaw"), R"(Static friction above kinetic.
 
 A slider at rest withstands |load| <= a_static; another law resists sliding. A slip that stops sticks if
 |load| <= a_static. At breakaway the acceleration jumps to a_static minus the resistance to sliding.
@@ -77,8 +80,8 @@ Objects compare by content; they can be hashed, copied and pickled.
 
 Parameters
 ----------
-sliding : Coulomb, Caster, VelocityDependent or Degrading, optional
-    The law of sliding, instead of mu_kinetic or kinetic.
+sliding : FrictionLaw, optional
+    The law of sliding, one whose friction at rest is not already above it, instead of mu_kinetic or kinetic.
 mu_static : float or (float, float), optional
     Static coefficient of friction, or those against forward and backward sliding. Give mu_static or static.
 static : float or (float, float), optional

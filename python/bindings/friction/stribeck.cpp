@@ -7,7 +7,8 @@
 
 namespace stickslip::python {
 
-void bind_stribeck(py::module_& m) {
+template <>
+void bind_law<Stribeck>(py::module_& m) {
   auto type = value_class<Stribeck>(
       m, "Stribeck",
       R"(Friction that falls from a static to a kinetic level with increasing speed: the Stribeck law.
@@ -66,11 +67,7 @@ control of machines with friction, Automatica 30 (1994), 1083-1138.)");
           "Coefficient of friction at high speed, kinetic / g.")
       .def_property_readonly("velocity", &Stribeck::velocity, "Speed at which 63 % of the decrease is complete [m/s].")
       .def_property_readonly("exponent", &Stribeck::exponent, "Exponent of the speed.")
-      .def("__repr__", [](const Stribeck& law) {
-        return "Stribeck(" + level_argument(law.static_level(), "mu_static", "static") + ", " +
-               level_argument(law.kinetic_level(), "mu_kinetic", "kinetic") +
-               ", velocity=" + detail::shortest(law.velocity()) + ", exponent=" + std::to_string(law.exponent()) + ")";
-      });
+      .def("__repr__", &repr_of<Stribeck>);
   explain_constructor(type,
                       "Stribeck: give mu_static= and mu_kinetic=, or static= and kinetic= [m/s^2], velocity= [m/s] and "
                       "exponent=");

@@ -5,7 +5,8 @@
 
 namespace stickslip::python {
 
-void bind_velocity_dependent(py::module_& m) {
+template <>
+void bind_law<VelocityDependent>(py::module_& m) {
   auto type = value_class<VelocityDependent>(
       m, "VelocityDependent",
       R"(Friction that depends on the speed, such as that of PTFE and other liners of sliding isolators.
@@ -60,10 +61,7 @@ Engineering 116 (1990), 455-474.)");
           "mu_fast", [](const VelocityDependent& law) { return mu_of(law.fast()); },
           "Coefficient of friction at high speed, fast / g.")
       .def_property_readonly("rate", &VelocityDependent::rate, "Rate at which the level changes with the speed [s/m].")
-      .def("__repr__", [](const VelocityDependent& law) {
-        return "VelocityDependent(" + level_argument(law.slow(), "mu_slow", "slow") + ", " +
-               level_argument(law.fast(), "mu_fast", "fast") + ", rate=" + detail::shortest(law.rate()) + ")";
-      });
+      .def("__repr__", &repr_of<VelocityDependent>);
   explain_constructor(type,
                       "VelocityDependent: give mu_slow= and mu_fast=, or slow= and fast= [m/s^2], and rate= [s/m]");
 }

@@ -46,10 +46,9 @@ displacement : array_like, shape (2,), optional
 velocity : array_like, shape (2,), optional
     r' relative to the ground [m/s]; (0, 0) means at rest.
 sliding_distance : float, optional
-    Path length so far [m], at least 0; for laws that depend on it, such as `Degrading`.
+    Path length so far [m], at least 0; for laws that depend on it.
 heat : SurfaceHeat, optional
-    Heat left in the sliding surface, for laws that depend on its temperature: `KumarFriction`. Without it the surface
-    is cold.
+    Heat left in the sliding surface, for laws that depend on its temperature. Without it the surface is cold.
 
 Raises
 ------

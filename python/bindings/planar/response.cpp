@@ -220,7 +220,7 @@ Found by a search within each step of the motion, which is integrated once more 
       .def_property_readonly("temperature", &temperature_of,
                              R"(Temperature of the sliding surface at `time` [degrees Celsius], shape (N,).
 
-None unless the friction law depends on it, as `KumarFriction` does.)")
+None unless the friction law depends on it.)")
       .def_property_readonly("gap", &gap_of, R"(Gap between slider and ground at `time` [m], shape (N,).
 
 0 except in flight, with contact='flight'.)")

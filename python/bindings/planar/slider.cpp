@@ -46,7 +46,7 @@ rest while |p - wn^2 r| <= hold N+/g.
 
 Parameters
 ----------
-law : Coulomb, VelocityDependent, Stribeck, Degrading, KumarFriction, StaticKinetic or Slider
+law : FrictionLaw or Slider
     The friction, which must be the same in all directions; or a `Slider`, whose law and mounting are used.
 natural_frequency : float, optional
     wn of the mass on its spring, without friction [rad/s]; finite and at least 0; 0 means no spring.

@@ -349,7 +349,7 @@ max(N, 0), N = (g + a_z) cos(slope) + n sin(slope); 0 in flight.)")
       .def_property_readonly("temperature", &temperature_of,
                              R"(Temperature of the sliding surface at `time` [degrees Celsius], shape (N,).
 
-None unless the friction law depends on it, as `KumarFriction` does.)")
+None unless the friction law depends on it.)")
       .def_property_readonly("spring", force<&Forces::spring>(),
                              "Force of the spring per unit mass at `time`, wn^2 x, for a pendulum times N+/g [m/s^2], "
                              "shape (N,).")

@@ -59,10 +59,9 @@ displacement : float, optional
 velocity : float, optional
     x' [m/s], finite; 0 means that it sticks.
 sliding_distance : float, optional
-    Path length so far [m], at least 0; for laws that depend on it, such as `Degrading`.
+    Path length so far [m], at least 0; for laws that depend on it.
 heat : SurfaceHeat, optional
-    Heat left in the sliding surface, for laws that depend on its temperature: `KumarFriction`. Without it the surface
-    is cold.)",
+    Heat left in the sliding surface, for laws that depend on its temperature. Without it the surface is cold.)",
       [](const StructureState& s) {
         return py::make_tuple(plain(s.modal_displacement), plain(s.modal_velocity), s.displacement, s.velocity,
                               static_cast<int>(s.mode), s.sliding_distance, s.heat);

@@ -911,7 +911,7 @@ balances the other forces.)")
           },
           R"(Temperature of the sliding surface at `time` [degrees Celsius], shape (N,).
 
-None unless the friction law depends on it, as `KumarFriction` does.)")
+None unless the friction law depends on it.)")
       .def_property_readonly(
           "state", [](const Self& r) { return r.response.final_state; },
           R"(The `StructureState` at the end, from which `advance` continues.)")

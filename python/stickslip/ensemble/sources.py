@@ -6,24 +6,16 @@ from collections.abc import Sequence
 from typing import Any, Protocol, TypeAlias
 
 from .._core import (
-    Caster,
-    Coulomb,
-    Degrading,
     Drawn,
     EquipmentOnFloor,
     FlexibleSlope,
+    FrictionLaw,
     GaussianExcitation,
     GroundMotion,
     IsolatedStructure,
-    KumarFriction,
-    Law,
-    MultiPendulum,
     PlanarSlider,
     PoissonPulses,
     Slider,
-    StaticKinetic,
-    Stribeck,
-    VelocityDependent,
     WithTransverse,
     WithVertical,
     _upward,
@@ -84,19 +76,7 @@ class SliderSource(Protocol):
         """
 
 
-AnySlider: TypeAlias = (
-    Slider
-    | Coulomb
-    | Caster
-    | VelocityDependent
-    | Stribeck
-    | Degrading
-    | KumarFriction
-    | MultiPendulum
-    | Law
-    | StaticKinetic
-    | PlanarSlider
-)
+AnySlider: TypeAlias = Slider | FrictionLaw | PlanarSlider
 AnyStructure: TypeAlias = IsolatedStructure | EquipmentOnFloor | FlexibleSlope
 AnyMember: TypeAlias = "AnySlider | AnyStructure"
 AnySliders: TypeAlias = "AnyMember | Sequence[AnyMember] | Drawn[AnyMember] | SliderSource"

@@ -12,6 +12,7 @@ from .. import _core
 from .._core import STANDARD_GRAVITY, Ensemble, EquipmentOnFloor, Estimate, FlexibleSlope
 
 _SURFACES = {2: "double pendulum", 4: "triple pendulum", 6: "quintuple pendulum"}
+_OF_LEVELS = {"slip_level", "backward", "reach", "rolling"}  # parts with words of their own
 
 
 def describe(slider: Any) -> str:
@@ -103,20 +104,21 @@ def _radius(natural_frequency: float) -> float:
 
 
 def _law_in_words(law: Mapping[str, Any]) -> Iterator[str]:
+    parts = {name: unit for name, _, unit, _ in _core._laws().get(law["law"], [])}
     if isinstance(law.get("static"), list):
         yield from _both_ways("static level", *law["static"])
-    if law["law"] == "VelocityDependent":
+    if "slow" in law:
         yield f"slip level {_in_g(law['slow'])} slow, {_in_g(law['fast'])} fast"
-    elif law["law"] == "Stribeck":
+    elif "kinetic" in law:
         yield f"slip level {_in_g(law['static'])} at rest, {_in_g(law['kinetic'])} fast"
-    elif law["law"] == "KumarFriction":
+    elif "static_pressure" in law:
         pressure = f"{digits(law['static_pressure'] / 1e6)} MPa"
         yield f"mu {digits(law['mu_ref'])} at reference, {pressure}, heated"
-    elif law["law"] == "MultiPendulum":
+    elif "radii" in law:
         count = len(law["radii"]) + bool(law.get("nested"))
         name = _SURFACES.get(count, f"pendulum of {count} surfaces")
         yield f"{name}, mu {', '.join(digits(mu) for mu in law['mu'])}"
-    elif law["law"] == "Degrading":
+    elif "distances" in law:
         yield f"slip level {_in_g(law['levels'][0])}"
         if len(law["levels"]) > 1:
             length, unit = unit_for(law["distances"][-1])
@@ -124,14 +126,24 @@ def _law_in_words(law: Mapping[str, Any]) -> Iterator[str]:
             yield f"{_in_g(law['levels'][-1])} after {distance}"
         if law["backward"] != law["levels"]:
             yield "different backward"
-    elif "slip_level" not in law:
-        yield "law from functions"
+    elif "slip_level" not in law or set(parts) - _OF_LEVELS:
+        yield from _parts_in_words(law, parts)
     elif law["slip_level"] == 0 == law.get("backward", 0):
         yield "no friction"
     else:
         yield from _both_ways(
             "slip level", law["slip_level"], law.get("backward", law["slip_level"])
         )
+
+
+def _parts_in_words(law: Mapping[str, Any], units: Mapping[str, str]) -> Iterator[str]:
+    """The parts of a law for which there are no better words."""
+    if not units:
+        yield "law from functions"
+    for name, unit in units.items():
+        if isinstance(value := law.get(name), int | float):
+            amount = _in_g(value) if unit == "m/s^2" else f"{digits(value)} {unit}".rstrip()
+            yield f"{name.replace('_', ' ')} {amount}"
 
 
 def _both_ways(name: str, ahead: float | None, back: float | None) -> Iterator[str]:

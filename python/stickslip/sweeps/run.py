@@ -15,21 +15,13 @@ import numpy as np
 
 from .. import _core
 from .._core import (
-    Caster,
-    Coulomb,
-    Degrading,
     EquipmentOnFloor,
     FlexibleSlope,
+    FrictionLaw,
     GroundMotion,
     IsolatedStructure,
-    KumarFriction,
-    Law,
-    MultiPendulum,
     PlanarSlider,
     Slider,
-    StaticKinetic,
-    Stribeck,
-    VelocityDependent,
 )
 from .._units import warn_of_units
 from ..ensemble.random_slider import Random
@@ -44,20 +36,7 @@ from .table import POLARITIES, SweepTable, parameters_of
 Polarity = Literal["both", "recorded", "reversed"]
 
 _STRUCTURES = (IsolatedStructure, EquipmentOnFloor, FlexibleSlope)
-_SLIDERS = (
-    *_STRUCTURES,
-    PlanarSlider,
-    Slider,
-    Coulomb,
-    Caster,
-    VelocityDependent,
-    Stribeck,
-    Degrading,
-    KumarFriction,
-    MultiPendulum,
-    Law,
-    StaticKinetic,
-)
+_SLIDERS = (*_STRUCTURES, PlanarSlider, Slider, FrictionLaw)
 _PARTS = 64  # number of parts of the records for an executor
 
 

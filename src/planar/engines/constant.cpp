@@ -1,14 +1,9 @@
-// Event loops in the plane for laws of the library; see engines.hpp.
+// Event loops in the plane for laws of the library; see laws.hpp.
 #include "stickslip/planar/detail/engines.hpp"
 
 namespace stickslip::detail {
 
-template void advance_plane(const PlanarSlider<Coulomb>&, const PlanarLoadSegment&, Contact, PlanarState&, PlanarSink&);
-template void advance_plane(const PlanarSlider<StaticKinetic<Coulomb>>&, const PlanarLoadSegment&, Contact,
-                            PlanarState&, PlanarSink&);
-template void advance_plane(const PlanarSlider<Degrading>&, const PlanarLoadSegment&, Contact, PlanarState&,
-                            PlanarSink&);
-template void advance_plane(const PlanarSlider<StaticKinetic<Degrading>>&, const PlanarLoadSegment&, Contact,
-                            PlanarState&, PlanarSink&);
+STICKSLIP_COULOMB_LAWS(STICKSLIP_PLANE_ENGINE)
+STICKSLIP_CLOSED_FORM_LAWS(STICKSLIP_PLANE_ENGINE)
 
 }  // namespace stickslip::detail

@@ -1,11 +1,8 @@
-// Engines of laws of the library; see engines.hpp.
+// Engines of laws of the library; see laws.hpp.
 #include "stickslip/sliding/detail/engines.hpp"
 
 namespace stickslip::detail {
 
-template class EngineOf<StaticKinetic<Coulomb>>;
-template class EngineOf<Degrading>;
-template class EngineOf<StaticKinetic<Degrading>>;
-template class EngineOf<MultiPendulum>;
+STICKSLIP_CLOSED_FORM_LAWS(STICKSLIP_ENGINE)
 
 }  // namespace stickslip::detail

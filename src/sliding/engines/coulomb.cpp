@@ -1,8 +1,8 @@
-// Engines of laws of the library; see engines.hpp.
+// Engines of laws of the library; see laws.hpp.
 #include "stickslip/sliding/detail/engines.hpp"
 
 namespace stickslip::detail {
 
-template class EngineOf<Coulomb>;
+STICKSLIP_COULOMB_LAWS(STICKSLIP_ENGINE)
 
 }  // namespace stickslip::detail

@@ -1,9 +1,8 @@
-// Engines of laws of the library; see engines.hpp.
+// Engines of laws of the library; see laws.hpp.
 #include "stickslip/sliding/detail/engines.hpp"
 
 namespace stickslip::detail {
 
-template class EngineOf<KumarFriction>;
-template class EngineOf<FunctionLaw>;
+STICKSLIP_NUMERIC_LAWS(STICKSLIP_ENGINE)
 
 }  // namespace stickslip::detail

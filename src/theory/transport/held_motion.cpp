@@ -17,14 +17,16 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The laws that are covered: those whose friction changes over a distance and a speed that are known.
 template <class Law>
-constexpr bool covered = MemorylessLaw<Law> && !std::same_as<Law, FunctionLaw>;
+constexpr bool covered = MemorylessLaw<Law>&& form_of<Law> != Form::numeric;
 
 /// The distance over which friction changes.
 template <class Law>
-double reach_of(const Law&) {
-  return infinity;
+double reach_of(const Law& law) {
+  if constexpr (requires { law.length_scale(); })
+    return law.length_scale();
+  else
+    return infinity;
 }
-double reach_of(const Caster& law) { return law.reach(); }
 template <class Law>
 double reach_of(const StaticKinetic<Law>& law) {
   return reach_of(law.sliding());
@@ -32,11 +34,12 @@ double reach_of(const StaticKinetic<Law>& law) {
 
 /// The speed over which friction changes.
 template <class Law>
-double speed_of(const Law&) {
-  return infinity;
+double speed_of(const Law& law) {
+  if constexpr (requires { law.speed_scale(); })
+    return law.speed_scale();
+  else
+    return infinity;
 }
-double speed_of(const VelocityDependent& law) { return 1 / law.rate(); }
-double speed_of(const Stribeck& law) { return law.velocity(); }
 template <class Law>
 double speed_of(const StaticKinetic<Law>& law) {
   return speed_of(law.sliding());

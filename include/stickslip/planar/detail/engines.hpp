@@ -1,31 +1,14 @@
-// The event loops in the plane that the library contains: those of the laws of AnyPlanarSlider.
+// The event loops in the plane that the library contains: those of its laws.
 #pragma once
 
-#include "stickslip/friction/coulomb.hpp"
-#include "stickslip/friction/degrading.hpp"
-#include "stickslip/friction/kumar.hpp"
-#include "stickslip/friction/static_kinetic.hpp"
-#include "stickslip/friction/stribeck.hpp"
-#include "stickslip/friction/velocity_dependent.hpp"
+#include "stickslip/friction/laws.hpp"
 #include "stickslip/planar/advance.hpp"
 
 namespace stickslip::detail {
 
-extern template void advance_plane(const PlanarSlider<Coulomb>&, const PlanarLoadSegment&, Contact, PlanarState&,
-                                   PlanarSink&);
-extern template void advance_plane(const PlanarSlider<VelocityDependent>&, const PlanarLoadSegment&, Contact,
-                                   PlanarState&, PlanarSink&);
-extern template void advance_plane(const PlanarSlider<Stribeck>&, const PlanarLoadSegment&, Contact, PlanarState&,
-                                   PlanarSink&);
-extern template void advance_plane(const PlanarSlider<Degrading>&, const PlanarLoadSegment&, Contact, PlanarState&,
-                                   PlanarSink&);
-extern template void advance_plane(const PlanarSlider<KumarFriction>&, const PlanarLoadSegment&, Contact, PlanarState&,
-                                   PlanarSink&);
-extern template void advance_plane(const PlanarSlider<StaticKinetic<Coulomb>>&, const PlanarLoadSegment&, Contact,
-                                   PlanarState&, PlanarSink&);
-extern template void advance_plane(const PlanarSlider<StaticKinetic<VelocityDependent>>&, const PlanarLoadSegment&,
-                                   Contact, PlanarState&, PlanarSink&);
-extern template void advance_plane(const PlanarSlider<StaticKinetic<Degrading>>&, const PlanarLoadSegment&, Contact,
-                                   PlanarState&, PlanarSink&);
+#define STICKSLIP_PLANE_ENGINE(...) template struct PlaneEngine<__VA_ARGS__>;
+#define STICKSLIP_EXTERN_ENGINE(...) extern STICKSLIP_PLANE_ENGINE(__VA_ARGS__)
+STICKSLIP_LAWS(STICKSLIP_EXTERN_ENGINE)
+#undef STICKSLIP_EXTERN_ENGINE
 
 }  // namespace stickslip::detail
