@@ -5,6 +5,7 @@ import json
 import pickle
 import re
 from importlib.util import find_spec
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -197,8 +198,6 @@ def test_bad_input() -> None:
         ss.IsolatedStructure(ss.Slider(ss.Coulomb(mu=0.6), slope_degrees=20), ONE)
     with pytest.raises(ValueError, match="not covered"):
         ss.IsolatedStructure(ss.Law(hold=lambda x, d: 1.0, resist=lambda x, v, d: 1.0), ONE)
-    with pytest.raises(ValueError, match="pendulums with several surfaces are not covered"):
-        ss.IsolatedStructure(ss.DoublePendulum([1.5, 3], [0.04, 0.06]), ONE)
     with pytest.raises(ValueError, match=r"damping_ratio must be left out, got 0\.1"):
         ss.FlexibleSlope(
             ky_g=0.1,
@@ -671,3 +670,18 @@ def test_what_cannot_settle_says_so_at_once(method, level) -> None:
     with pytest.warns(RuntimeWarning, match="2 of 2 combinations failed"):
         table = ss.sweep([slope], [QUAKE], settle=True)
     assert "does not come to rest" in table.failures[0].message
+
+
+def test_a_building_slides_on_a_bearing_with_several_surfaces():
+    bearing = ss.TriplePendulum([0.4, 2, 2], [0.01, 0.04, 0.08], [0.06, 0.2, 0.2])
+    isolated = ss.IsolatedStructure(bearing, BUILDING, base_mass=1)
+    m = np.arange(301)
+    motion = ss.GroundMotion(3 * np.sin(0.14 * m) + 2 * np.cos(0.38 * m + 0.4), dt=0.02)
+    response = ss.integrate(isolated, motion)
+    assert response.peak > 0.1
+    assert abs(response.energy.imbalance) < 1e-11 * response.energy.dissipated
+    state = isolated.rest()
+    for start, end in pairwise(motion.acceleration):
+        state = ss.advance(isolated, state, 0.02, start, end)
+        state = pickle.loads(pickle.dumps(state))  # with the places of the elements
+    assert state.displacement == pytest.approx(response.displacement[-1], abs=1e-11)

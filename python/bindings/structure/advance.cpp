@@ -64,12 +64,13 @@ heat : SurfaceHeat, optional
     Heat left in the sliding surface, for laws that depend on its temperature. Without it the surface is cold.)",
       [](const StructureState& s) {
         return py::make_tuple(plain(s.modal_displacement), plain(s.modal_velocity), s.displacement, s.velocity,
-                              static_cast<int>(s.mode), s.sliding_distance, s.heat);
+                              static_cast<int>(s.mode), s.sliding_distance, s.heat, pack(s.pendulum));
       },
       [](const py::tuple& inputs) {
         StructureState state = state_from(inputs[0], inputs[1], inputs[2].cast<double>(), inputs[3].cast<double>(),
                                           inputs[5].cast<double>(), inputs[6].cast<SurfaceHeat>());
         state.mode = static_cast<Mode>(inputs[4].cast<int>());
+        state.pendulum = unpack<PendulumMemory>(inputs[7]);
         return state;
       })
       .def(py::init(&state_from), py::arg("modal_displacement"), py::arg("modal_velocity"), py::kw_only(),

@@ -502,7 +502,7 @@ Parameters
 ----------
 slider : Slider or friction law
     Friction, spring, damper and stops of the interface, per unit mass of base and structure; on level ground. Laws that
-    are functions of numbers, and `MultiPendulum`, are not covered.
+    are functions of numbers are not covered.
 structure : Structure
     The structure on the base.
 base_mass : float, optional
