@@ -102,3 +102,15 @@ def test_a_picture_names_the_parts_of_a_law_that_has_no_words():
         said = words.in_words({**sand, "natural_frequency": 2})
         assert said == ["slip level 1.00 g", "drag 0.300 1/s", "turns 2.00", "period 3.14 s"]
     assert words.in_words({"law": "typeinfo", "levels": [1, 2]}) == ["law from functions"]
+
+
+def test_the_page_numbers_its_laws_as_its_compiled_part_does():
+    def text(file):
+        return (ROOT / "web" / file).read_text(encoding="utf-8")
+
+    listed = re.search(r"enum Law \{ (.*?) \};", text("bindings.cpp"))[1]
+    names = listed.replace("_", "-").split(", ")
+    offered = re.search(r"export const LAWS = .*?\]\)", text("page/settings.js"), re.DOTALL)[0]
+    assert re.findall(r'name: "([\w-]+)"', offered) == names
+    tried = re.search(r"^LAWS = \((.*?)\)", text("tests/problems.py"), re.MULTILINE)[1]
+    assert re.findall(r'"([\w-]+)"', tried) == names
