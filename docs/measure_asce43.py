@@ -9,23 +9,29 @@ component, need the folder that $STICKSLIP_RECORDS names, and stay as they are w
 
 from __future__ import annotations
 
-import csv
-import os
 from collections.abc import Callable, Iterable
 from functools import cache
 from itertools import pairwise
-from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import stickslip as ss
-from measure_refinements import samples, station, triples
-from measured_page import draw, rewrite, table
+from measured_page import (
+    DOCS,
+    components,
+    flat,
+    pairs,
+    rewrite,
+    samples,
+    spread,
+    station,
+    table,
+    triples,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-DOCS = Path(__file__).parent
 PAGE = DOCS / "asce43.md"
 PICTURE = DOCS / "images" / "asce43.png"
 
@@ -44,50 +50,6 @@ class Point(NamedTuple):
     estimate: float  # [m]
     exact: float  # [m], the largest displacement
     reached: bool
-
-
-# ---- ground motions
-
-
-@cache
-def pairs() -> tuple[ss.GroundMotion, ...]:
-    """Recorded pairs; none without the files. The shorter component is followed by zeros."""
-    folder = Path(os.environ.get("STICKSLIP_RECORDS", "")) / "usgs_pairs"
-    if not (folder / "pairs.csv").is_file():
-        return ()
-    with open(folder / "pairs.csv", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    found = []
-    for first, second in zip(rows[::2], rows[1::2], strict=True):
-        assert (first["earthquake"], first["station"]) == (second["earthquake"], second["station"])
-        both = [np.loadtxt(folder / row["file"]).ravel() for row in (first, second)]
-        length = max(map(len, both))
-        n, t = (ss.STANDARD_GRAVITY * np.pad(one, (0, length - len(one))) for one in both)
-        name = f"{first['earthquake']} {first['station']}"
-        found.append(ss.GroundMotion(n, dt=float(first["dt_s"]), transverse=t, name=name))
-    return tuple(found)
-
-
-def axes(motions: Iterable[ss.GroundMotion]) -> list[ss.GroundMotion]:
-    """Each component of pairs alone."""
-    return [motion.component(which) for motion in motions for which in ("axis", "transverse")]
-
-
-@cache
-def synthetic(pga_g: float, ratio: float) -> tuple[ss.GroundMotion, ...]:
-    """Triples of docs/measure_refinements.py, as stations with all three components."""
-    both = triples(pga_g, ratio)
-    return tuple(
-        ss.GroundMotion(a.acceleration, dt=a.dt, transverse=b.acceleration, vertical=a.vertical)
-        for a, b in zip(both[: 2 * TRIPLES : 2], both[1 : 2 * TRIPLES : 2], strict=True)
-    )
-
-
-def flat(motion: ss.GroundMotion) -> ss.GroundMotion:
-    """Without the vertical component."""
-    return ss.GroundMotion(
-        motion.acceleration, dt=motion.dt, transverse=motion.transverse, name=motion.name
-    )
 
 
 # ---- estimate and exact displacement
@@ -111,15 +73,15 @@ def points(
 
 
 def of_axes() -> tuple[ss.GroundMotion, ...]:
-    return tuple(axes(pairs()))
+    return tuple(components(pairs()))
 
 
 def gentle() -> tuple[ss.GroundMotion, ...]:
-    return synthetic(0.4, 2 / 3)
+    return triples(0.4, 2 / 3)[:TRIPLES]
 
 
 def strong() -> tuple[ss.GroundMotion, ...]:
-    return synthetic(0.4, 1)
+    return triples(0.4, 1)[:TRIPLES]
 
 
 def gentle_flat() -> tuple[ss.GroundMotion, ...]:
@@ -136,12 +98,10 @@ def row(found: Iterable[Point]) -> list[str]:
     here = ratios(found)
     if not here.size:
         return [f"{len(found)}, 0", "", "", "", ""]
-    low, high = np.percentile(here, (16, 84))
     scatter = np.log(here[here > 0]).std()
     return [
         f"{len(found)}, {here.size}",
-        f"{np.median(here):.2f}",
-        f"{low:.2f} to {high:.2f}",
+        *spread(here),
         f"{scatter:.2f}" if here.size > 1 else "",
         f"{np.sum(here < 1)}",
     ]
@@ -181,14 +141,7 @@ COLUMNS = (
 
 def of_station() -> list[list[str]]:
     """The station with a vertical component, both horizontal components and all three [cm]."""
-    north, east = station()
-    both = ss.GroundMotion(
-        north.acceleration,
-        dt=north.dt,
-        transverse=east.acceleration,
-        vertical=north.vertical,
-        name="WTMC",
-    )
+    both = station()[0]
     found = []
     for mu in MUS:
         two, three = measure(flat(both), mu), measure(both, mu)
@@ -289,11 +242,10 @@ def figure() -> Figure:
 
 def main() -> None:
     found = tables()
-    rewrite(PAGE, found.values())
+    rewrite(PAGE, found.values(), {PICTURE: figure})
     for name in ("pairs", "station"):
         if name not in found:
             print(f"no files of the {name} in $STICKSLIP_RECORDS: their table stays as it is")
-    draw(PICTURE, figure)
 
 
 if __name__ == "__main__":

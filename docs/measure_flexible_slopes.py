@@ -10,16 +10,15 @@ from __future__ import annotations
 
 import warnings
 from functools import cache
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 import pyslammer
 import stickslip as ss
-from measured_page import rewrite, table
+from measured_page import DOCS, G, rewrite, samples, table
 from numpy.typing import NDArray
 
-PAGE = Path(__file__).parent / "flexible_slopes.md"
+PAGE = DOCS / "flexible_slopes.md"
 
 VELOCITY, ROCK, DAMPING = 300.0, 1000.0, 0.05  # [m/s], [m/s], of the soil alone
 PERIODS = [0.2, 0.5, 1.0, 2.0, 4.0]  # T_s / T_m
@@ -59,7 +58,7 @@ def column(
 
 def k_max(slope: ss.FlexibleSlope, record: ss.GroundMotion) -> float:
     """The largest shear at the base of a column that does not slide, over its weight."""
-    return float(np.abs(slope.decoupled(record).demand).max()) / ss.STANDARD_GRAVITY
+    return float(np.abs(slope.decoupled(record).demand).max()) / G
 
 
 def levels(record: ss.GroundMotion, ratio: float) -> list[float]:
@@ -89,7 +88,7 @@ def by_pyslammer(
 ) -> NDArray[np.float64]:
     """Shape (methods, polarities, periods, levels)."""
     divided = record.resampled(record.dt / parts)
-    motion = pyslammer.GroundMotion(divided.acceleration / ss.STANDARD_GRAVITY, divided.dt)
+    motion = pyslammer.GroundMotion(divided.acceleration / G, divided.dt)
     found = np.empty((len(METHODS), 2, len(periods), len(LEVELS)))
     for j, ratio in enumerate(periods):
         tall = height(record, ratio)
@@ -107,12 +106,12 @@ def by_pyslammer(
 
 @cache
 def exact_of_record(i: int) -> NDArray[np.float64]:
-    return exactly(ss.sample_records()[i])
+    return exactly(samples()[i])
 
 
 @cache
 def of_record(i: int) -> Displacements:
-    return Displacements(exact_of_record(i), by_pyslammer(ss.sample_records()[i]))
+    return Displacements(exact_of_record(i), by_pyslammer(samples()[i]))
 
 
 def ratios(exact: NDArray[np.float64], its: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -135,7 +134,7 @@ def quantiles(ratio: NDArray[np.float64]) -> str:
 @cache
 def all_records() -> Displacements:
     """Shape (methods, records, polarities, periods, levels)."""
-    those = [of_record(i) for i in range(len(ss.sample_records()))]
+    those = [of_record(i) for i in range(len(samples()))]
     return Displacements(*(np.stack(each, axis=1) for each in zip(*those)))
 
 
@@ -148,7 +147,7 @@ METHOD_HEADING = "| T_s / T_m | rigid / coupled | decoupled / coupled |"
 
 
 def record_row(i: int) -> list[str]:
-    found, record = of_record(i), ss.sample_records()[i]
+    found, record = of_record(i), samples()[i]
     cases = (found.exact > LOWEST).sum(axis=(1, 2, 3))
     cells = [errors(ratios(e, i)) for e, i in zip(found.exact, found.its)]
     return [record.name, f"{1000 * record.dt:g}", ", ".join(map(str, cases)), *cells]
@@ -178,7 +177,7 @@ def period_rows() -> list[list[str]]:
 
 def step_rows(parts: list[int] = PARTS) -> list[list[str]]:
     """The shorter records, T_s = T_m / 2 and T_m, with segments divided."""
-    these = [(i, r) for i, r in enumerate(ss.sample_records()) if len(r) < SHORTER]
+    these = [(i, r) for i, r in enumerate(samples()) if len(r) < SHORTER]
     chosen = [PERIODS.index(0.5), PERIODS.index(1.0)]
     periods = [PERIODS[j] for j in chosen]
     exact = np.stack([exact_of_record(i)[:, :, chosen] for i, _ in these], axis=1)
@@ -215,7 +214,7 @@ def soils(record: ss.GroundMotion, rock: float) -> NDArray[np.float64]:
     properties = one.properties(record)
     velocity = properties["shear_velocity"]
     damping = properties["damping_ratio"] - radiation(rock, velocity)
-    motion = pyslammer.GroundMotion(-record.acceleration / ss.STANDARD_GRAVITY, record.dt)
+    motion = pyslammer.GroundMotion(-record.acceleration / G, record.dt)
     found = [[one.decoupled(record).residual, one.coupled(record).residual], [], []]
     for kind in (pyslammer.Decoupled, pyslammer.Coupled):
         soil = {"ref_strain": STRAIN, "soil_model": "equivalent_linear"}
@@ -227,7 +226,7 @@ def soils(record: ss.GroundMotion, rock: float) -> NDArray[np.float64]:
 def soil_rows() -> list[list[str]]:
     rows = []
     for rock, name in ((RIGID, "rigid rock"), (ROCK, "rock of 1000 m/s")):
-        each = np.stack([soils(record, rock) for record in ss.sample_records()], axis=2)
+        each = np.stack([soils(record, rock) for record in samples()], axis=2)
         exact = each[0]
         for what, its in (("iterated by pySLAMMER", each[1]), ("given converged soil", each[2])):
             rows.append([f"{name}, {what}", *(errors(ratios(e, i)) for e, i in zip(exact, its))])
@@ -236,7 +235,7 @@ def soil_rows() -> list[list[str]]:
 
 def method_rows() -> list[list[str]]:
     """The exact displacements of the simpler methods over coupled ones: 5, 50 and 95 %."""
-    exact = np.stack([exact_of_record(i) for i in range(len(ss.sample_records()))], axis=1)
+    exact = np.stack([exact_of_record(i) for i in range(len(samples()))], axis=1)
     rows = []
     for j, ratio in enumerate(PERIODS):
         rigid, decoupled, coupled = exact[..., j, :]
@@ -253,7 +252,7 @@ def tables() -> list[str]:
         table(METHOD_HEADING, method_rows()),
         table(LEVEL_HEADING, level_rows()),
         table(PERIOD_HEADING, period_rows()),
-        table(RECORD_HEADING, map(record_row, range(len(ss.sample_records())))),
+        table(RECORD_HEADING, map(record_row, range(len(samples())))),
         table(STEP_HEADING, step_rows()),
         table(SOIL_HEADING, soil_rows()),
     ]

@@ -15,13 +15,11 @@ import itertools
 import math
 import sys
 from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 import stickslip as ss
-from measured_page import rewrite, table
+from measured_page import DOCS, rewrite, shaking, table, white
 
-DOCS = Path(__file__).parent
 LEVEL = 1.0  # of forward sliding [m/s^2], everywhere
 EL, SL = ss.theory.EquivalentLinearization, ss.theory.StationaryLinearization
 
@@ -58,29 +56,26 @@ def band(strength: float, low: float, high: float) -> ss.Spectrum:
     return ss.Spectrum.band_pass(s0=strength**2 / 2 / (high - low), low=low, high=high)
 
 
-def white(dt: float, duration: float) -> ss.GaussianExcitation:
-    """White noise of S0 = 1 m^2/s^3, held over steps dt."""
-    return ss.GaussianExcitation(
-        ss.Spectrum.white(s0=1.0),
-        dt,
-        round(duration / dt) + 1,
-        interpolation="constant",
-        correct_interpolation=False,
-        random_amplitudes=True,
-        zero_frequency=True,
+def ensemble(slider, excitation, members: int, seed: int, dt: float | None = None) -> ss.Ensemble:
+    return ss.run_ensemble(
+        slider,
+        excitation,
+        members=members,
+        seed=seed,
+        dt=dt,
+        velocity_spectrum=False,
+        threads=1,
     )
 
 
-def shaking(spectrum: ss.Spectrum, dt: float, samples: int) -> ss.GaussianExcitation:
-    """With Rayleigh amplitudes and a period of four durations: Gaussian, with a line at zero."""
-    return ss.GaussianExcitation(
-        spectrum,
-        dt,
-        samples,
-        period=4 * samples,
-        zero_frequency=True,
-        random_amplitudes=True,
-    )
+def beside(e: ss.Ensemble, at: list[int], theories: list[ss.theory.Moments]) -> list[str]:
+    """Simulated variances of displacement and velocity at some times, and ratios of theories."""
+    row = []
+    for name in ("displacement_variance", "velocity_variance"):
+        values, errors = getattr(e, name)[at], getattr(e, f"{name}_error")[at]
+        row.append(", ".join(map(number, values, errors)))
+        row += [", ".join(map(ratio, getattr(m, name), values)) for m in theories]
+    return row
 
 
 def z_of(reach: float, q11, q12, q22):  # (3.30)
@@ -103,14 +98,12 @@ WHITE_ROWS = {  # times in S0 / a^2
 
 def white_ensemble(gamma: float, duration: float, members: int, seed: int, dt: float | None = None):
     dt = dt or WHITE_STEPS[gamma]
-    return ss.run_ensemble(
+    return ensemble(
         ss.Caster(slip_level=LEVEL, reach=1 / gamma),
-        white(dt, duration),
-        members=members,
-        seed=seed,
-        dt=dt * max(1, round(duration / dt / 2000)),
-        velocity_spectrum=False,
-        threads=1,
+        white(dt, round(duration / dt) + 1),
+        members,
+        seed,
+        dt * max(1, round(duration / dt / 2000)),
     )
 
 
@@ -254,14 +247,7 @@ CASTER_TIMES = (5.0, 20.0)
 
 
 def run(slider, spectrum, members, seed, times, dt=0.02):
-    e = ss.run_ensemble(
-        slider,
-        shaking(spectrum, dt, round(times[-1] / dt) + 1),
-        members=members,
-        seed=seed,
-        velocity_spectrum=False,
-        threads=1,
-    )
+    e = ensemble(slider, shaking(spectrum, dt, round(times[-1] / dt) + 1), members, seed)
     return e, [int(np.argmin(np.abs(e.time - t))) for t in times]
 
 
@@ -272,18 +258,13 @@ def filtered_casters(members: int = 4000) -> Iterator[list[str]]:
         e, at = run(slider, spectrum, members, 7, CASTER_TIMES)
         m = EL().predict(slider, spectrum, list(CASTER_TIMES))
         z = z_of(reach, m.displacement_variance, m.covariance, m.velocity_variance)
-        x = e.displacement_variance[at], e.displacement_variance_error[at]
-        v = e.velocity_variance[at], e.velocity_variance_error[at]
         yield [
             f"{soil[0]:g}, {soil[1]:g}",
             f"{strength:g}",
             f"{spring:g}",
             f"{reach:g}",
             ", ".join(f"{value:.2g}" for value in z),
-            ", ".join(number(*pair) for pair in zip(*x)),
-            ", ".join(ratio(*p) for p in zip(m.displacement_variance, x[0])),
-            ", ".join(number(*pair) for pair in zip(*v)),
-            ", ".join(ratio(*p) for p in zip(m.velocity_variance, v[0])),
+            *beside(e, at, [m]),
         ]
 
 
@@ -309,17 +290,12 @@ def laplacian(members: int = 4000) -> Iterator[list[str]]:
         spectrum = kanai_tajimi(strength, *soil)
         e, at = run(slider, spectrum, members, 11, LAPLACE_TIMES)
         m = EL("laplace").predict(slider, spectrum, list(LAPLACE_TIMES))
-        x = e.displacement_variance[at], e.displacement_variance_error[at]
-        v = e.velocity_variance[at], e.velocity_variance_error[at]
         yield [
             f"{soil[0]:g}, {soil[1]:g}",
             f"{strength:g}",
             f"{spring:g}",
             f"{backward:g}",
-            ", ".join(number(*pair) for pair in zip(*x)),
-            ", ".join(ratio(*p) for p in zip(m.displacement_variance, x[0])),
-            ", ".join(number(*pair) for pair in zip(*v)),
-            ", ".join(ratio(*p) for p in zip(m.velocity_variance, v[0])),
+            *beside(e, at, [m]),
         ]
 
 
@@ -349,12 +325,8 @@ def structures(members: int = 2000) -> Iterator[list[str]]:
         spectrum = kanai_tajimi(strength, *STRUCTURE_SOIL)
         e, at = run(system, spectrum, members, 17, STRUCTURE_TIMES)
         found = [EL(f).predict(system, spectrum, STRUCTURE_TIMES) for f in ("gaussian", "laplace")]
-        row = [f"{strength:g}", f"{spring:g}", f"{fraction:g}", f"{frequency:g}"]
-        for name in ("displacement_variance", "velocity_variance"):
-            values, errors = getattr(e, name)[at], getattr(e, f"{name}_error")[at]
-            row.append(", ".join(number(*pair) for pair in zip(values, errors)))
-            row += [", ".join(ratio(*p) for p in zip(getattr(m, name), values)) for m in found]
-        yield row
+        settings = (f"{one:g}" for one in (strength, spring, fraction, frequency))
+        yield [*settings, *beside(e, at, found)]
 
 
 # ---- stationary linearization
@@ -393,15 +365,7 @@ def stationary(members: int = 150) -> Iterator[list[str]]:
         for strength in STRENGTHS:
             slider = ss.Slider(ss.Coulomb(slip_level=LEVEL), natural_frequency=spring)
             spectrum = make(strength)
-            e = ss.run_ensemble(
-                slider,
-                shaking(spectrum, dt, 8192),
-                members=members,
-                seed=13,
-                dt=4 * dt,
-                velocity_spectrum=False,
-                threads=1,
-            )
+            e = ensemble(slider, shaking(spectrum, dt, 8192), members, 13, 4 * dt)
             v = e.stationary.velocity_variance
             value, error = math.sqrt(v.value), v.error / 2 / math.sqrt(v.value)
             p = SL().predict(slider, spectrum)
@@ -436,14 +400,7 @@ def along_the_wheel(cart: ss.Caster) -> ss.Law:
 
 
 def final_rms(law: object, event: str, members: int) -> float:
-    e = ss.run_ensemble(
-        law,
-        ss.PoissonPulses.event(event),
-        members=members,
-        seed=5,
-        velocity_spectrum=False,
-        threads=1,
-    )
+    e = ensemble(law, ss.PoissonPulses.event(event), members, 5)
     return float(np.sqrt(np.mean(e.residual**2)))
 
 

@@ -10,30 +10,34 @@ the page from it. The table of synthetic motions needs no records.
 from __future__ import annotations
 
 import csv
-import os
-import warnings
 from collections.abc import Iterable, Iterator
-from functools import cache
-from pathlib import Path
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import stickslip as ss
-from measure_refinements import triples
-from measured_page import rewrite, table
+from measured_page import (
+    DOCS,
+    PAIRS,
+    STATION,
+    G,
+    flat,
+    pairs,
+    rewrite,
+    spread,
+    station,
+    table,
+    triples,
+)
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
-DOCS = Path(__file__).parent
 PAGE = DOCS / "one_axis.md"
 MEASURED = DOCS / "one_axis.csv"
-PICTURES = {name: DOCS / "images" / f"one_axis_{name}.png" for name in ("estimates", "low")}
-PAIRS = "usgs_pairs"
-TRIPLE = Path("geonet", "20161113_110259_WTMC_20.V2A")
 
-G = ss.STANDARD_GRAVITY
 SLIDES = 1e-3  # [m]; a smaller displacement in the plane gives no ratio
 MUS = (0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3, 0.4)
 FRACTIONS = (0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)  # of the PGA
@@ -53,32 +57,9 @@ def slider(kind: str, mu: float) -> ss.Slider:
     return ss.FrictionPendulum(period=PERIOD, mu=mu)
 
 
-@cache
 def stations() -> tuple[ss.GroundMotion, ...]:
     """Eleven pairs and a station with three components, or nothing."""
-    folder = Path(os.environ.get("STICKSLIP_RECORDS", ""))
-    if not (folder / PAIRS).is_dir() or not (folder / TRIPLE).is_file():
-        return ()
-    with warnings.catch_warnings():
-        warnings.filterwarnings("ignore", "Suite.read: metadata renamed")  # the column pga_g
-        pairs = ss.Suite.read(
-            sorted((folder / PAIRS).glob("*.txt")),
-            stations=True,
-            metadata=folder / PAIRS / "pairs.csv",
-            units="g",
-        )
-    return (*pairs, ss.read_station(folder / TRIPLE))
-
-
-def horizontal(station: ss.GroundMotion) -> ss.GroundMotion:
-    """The station without its vertical component."""
-    return ss.GroundMotion(
-        station.acceleration,
-        dt=station.dt,
-        transverse=station.transverse,
-        name=station.name,
-        orientation=station.orientation,
-    )
+    return (*pairs(), station()[0]) if pairs() and station() else ()
 
 
 def pga(station: ss.GroundMotion) -> float:
@@ -119,19 +100,19 @@ def responses(
 def measure() -> list[dict[str, Any]]:
     """A row for each station, kind of slider, coefficient, and with and without the vertical."""
     rows = []
-    for station in stations():
-        level = pga(station)
-        versions = {"horizontal": horizontal(station)}
-        if station.vertical is not None:
-            versions["all three"] = station
-        for components, motion in versions.items():
+    for motion in stations():
+        level = pga(motion)
+        versions = {"horizontal": flat(motion)}
+        if motion.vertical is not None:
+            versions["all three"] = motion
+        for components, acting in versions.items():
             for kind in ("block", "pendulum"):
                 mus = [*MUS, *(fraction * level for fraction in FRACTIONS)]
-                for place, (mu, found) in enumerate(zip(mus, responses(kind, mus, motion))):
+                for place, (mu, found) in enumerate(zip(mus, responses(kind, mus, acting))):
                     relative = place >= len(MUS)
                     rows.append(
                         {
-                            "station": station.name,
+                            "station": motion.name,
                             "components": components,
                             "slider": kind,
                             "mu": mu,
@@ -187,13 +168,8 @@ def low(rows: list[dict[str, Any]], quantity: str, estimate: str) -> float:
 def summary(rows: list[dict[str, Any]], quantity: str) -> list[str]:
     cells = [str(len(ratios(rows, quantity, "srss")))]
     for estimate in ESTIMATES:
-        found = ratios(rows, quantity, estimate)
-        p16, middle, p84 = np.quantile(found, [0.16, 0.5, 0.84])
-        cells += [
-            f"{middle:.2f}",
-            f"{p16:.2f} to {p84:.2f}",
-            f"{low(rows, quantity, estimate):.0f}",
-        ]
+        cells += spread(ratios(rows, quantity, estimate))
+        cells.append(f"{low(rows, quantity, estimate):.0f}")
     return cells
 
 
@@ -236,25 +212,14 @@ def of_station(rows: list[dict[str, Any]]) -> list[list[str]]:
     return found
 
 
-def pairs_of(ratio: float) -> list[ss.GroundMotion]:
-    """The synthetic triples of docs/refinements.md, with both horizontal components each."""
-    axes = triples(0.4, ratio)
-    return [
-        ss.GroundMotion(n.acceleration, dt=n.dt, transverse=t.acceleration, vertical=n.vertical)
-        for n, t in zip(axes[::2], axes[1::2])
-    ]
-
-
 def of_triples(ratio: float, mu: float) -> list[str]:
     """50 synthetic pairs with a vertical component of V/H = ratio, against those without it."""
-    flat = [one for s in pairs_of(1.0) for one in responses("block", [mu], horizontal(s))]
+    level = [one for s in triples(0.4, 1.0) for one in responses("block", [mu], flat(s))]
     if not ratio:
-        return ["0", f"{mu:g}", "", "", *summary(flat, "peak")[1:]]
-    rows = [one for station in pairs_of(ratio) for one in responses("block", [mu], station)]
-    moved = [a["peak"] / b["peak"] for a, b in zip(rows, flat) if b["peak"] >= SLIDES]
-    p16, middle, p84 = np.quantile(moved, [0.16, 0.5, 0.84])
-    acts = [f"{middle:.2f}", f"{p16:.2f} to {p84:.2f}"]
-    return [f"{ratio:.2f}", f"{mu:g}", *acts, *summary(rows, "peak")[1:]]
+        return ["0", f"{mu:g}", "", "", *summary(level, "peak")[1:]]
+    rows = [one for s in triples(0.4, ratio) for one in responses("block", [mu], s)]
+    moved = [a["peak"] / b["peak"] for a, b in zip(rows, level) if b["peak"] >= SLIDES]
+    return [f"{ratio:.2f}", f"{mu:g}", *spread(moved), *summary(rows, "peak")[1:]]
 
 
 COLUMNS = " | ".join(f"{name}: median | 16 to 84 % | low [%]" for name in ESTIMATES.values())
@@ -302,15 +267,8 @@ def draw_estimates(axes: Axes, rows: list[dict[str, Any]], quantity: str, fracti
         for at, values in zip(place, each):
             axes.plot(np.full(len(values), at), values, ".", color=color, ms=3, alpha=0.45)
         bars = middle - low_, high - middle
-        axes.errorbar(
-            *(place, middle, bars),
-            color=color,
-            lw=1.6,
-            elinewidth=0.9,
-            marker="o",
-            ms=4,
-            label=name,
-        )
+        style = {"color": color, "lw": 1.6, "elinewidth": 0.9, "marker": "o", "ms": 4}
+        axes.errorbar(place, middle, bars, label=name, **style)
     axes.axhline(1, color=plotting.GRAY, lw=0.8)
     axes.set(xscale="log", yscale="log", ylim=(0.09, 5))
     at = [0.05, 0.1, 0.2, 0.4, 0.8] if fractions else [0.02, 0.05, 0.1, 0.2, 0.4]
@@ -322,48 +280,50 @@ def draw_estimates(axes: Axes, rows: list[dict[str, Any]], quantity: str, fracti
     axes.set_ylabel(f"{quantity}: estimate / in the plane")
 
 
-def draw(rows: list[dict[str, Any]]) -> None:
-    from PIL import Image
+def draw_estimates_of_blocks(rows: list[dict[str, Any]]) -> Figure:
     from stickslip import plotting
 
-    with plotting.style():
-        figure = plotting.new_figure(10, 7)
-        for row, fractions in zip(figure.subplots(2, 2), (False, True)):
-            for axes, quantity in zip(row, QUANTITIES):
-                draw_estimates(axes, rows, quantity, fractions)
-        figure.axes[0].legend(loc="lower left", fontsize=9)
-        figures = {"estimates": figure}
-        figure = plotting.new_figure(10, 3.6)
-        for axes, (kind, fractions) in zip(
-            figure.subplots(1, 2), (("block", True), ("pendulum", False))
-        ):
-            for i, (estimate, name) in enumerate(ESTIMATES.items()):
-                found = list(groups(rows, kind, fractions))
-                shares = [low(some, "peak", estimate) for _, some in found]
-                color = plotting.COLORS[i]
-                axes.plot(
-                    [value for value, _ in found], shares, "o-", color=color, ms=4, label=name
-                )
-            title = "Blocks" if fractions else f"Pendulums of {PERIOD:g} s"
-            axes.set(ylim=(0, 104), ylabel="peak is low [%]", title=title)
-            axes.set_xlabel("mu g / PGA [\N{MINUS SIGN}]" if fractions else "mu [\N{MINUS SIGN}]")
-        figure.axes[0].legend(loc="lower right", fontsize=9)
-        figures["low"] = figure
-    for name, picture in PICTURES.items():
-        plotting.save(figures[name], picture)
-        Image.open(picture).convert("RGB").quantize(64, dither=Image.Dither.NONE).save(
-            picture, optimize=True
-        )
+    figure = plotting.new_figure(10, 7)
+    for row, fractions in zip(figure.subplots(2, 2), (False, True)):
+        for axes, quantity in zip(row, QUANTITIES):
+            draw_estimates(axes, rows, quantity, fractions)
+    figure.axes[0].legend(loc="lower left", fontsize=9)
+    return figure
+
+
+def draw_low(rows: list[dict[str, Any]]) -> Figure:
+    from stickslip import plotting
+
+    figure = plotting.new_figure(10, 3.6)
+    for axes, (kind, fractions) in zip(
+        figure.subplots(1, 2), (("block", True), ("pendulum", False))
+    ):
+        for i, (estimate, name) in enumerate(ESTIMATES.items()):
+            found = list(groups(rows, kind, fractions))
+            shares = [low(some, "peak", estimate) for _, some in found]
+            color = plotting.COLORS[i]
+            axes.plot([value for value, _ in found], shares, "o-", color=color, ms=4, label=name)
+        title = "Blocks" if fractions else f"Pendulums of {PERIOD:g} s"
+        axes.set(ylim=(0, 104), ylabel="peak is low [%]", title=title)
+        axes.set_xlabel("mu g / PGA [\N{MINUS SIGN}]" if fractions else "mu [\N{MINUS SIGN}]")
+    figure.axes[0].legend(loc="lower right", fontsize=9)
+    return figure
+
+
+PICTURES = {
+    DOCS / "images" / "one_axis_estimates.png": draw_estimates_of_blocks,
+    DOCS / "images" / "one_axis_low.png": draw_low,
+}
 
 
 def main() -> None:
     if stations():
         store(measure())
     else:
-        print(f"no $STICKSLIP_RECORDS with {PAIRS} and {TRIPLE}: {MEASURED.name} stays as it is")
+        print(f"no $STICKSLIP_RECORDS with {PAIRS} and {STATION}: {MEASURED.name} stays as it is")
     rows = stored()
-    rewrite(PAGE, tables(rows).values())
-    draw(rows)
+    figures = {file: partial(draw, rows) for file, draw in PICTURES.items()}
+    rewrite(PAGE, tables(rows).values(), figures)
 
 
 if __name__ == "__main__":

@@ -9,21 +9,17 @@ pyslammer (the extra `records`).
 from __future__ import annotations
 
 from functools import cache
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 import stickslip as ss
-from measured_page import draw, rewrite, table
+from measured_page import DOCS, G, rewrite, samples, table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-DOCS = Path(__file__).parent
 PAGE = DOCS / "pendulums.md"
 PICTURE = DOCS / "images" / "pendulums.png"
-
-G = ss.STANDARD_GRAVITY
 
 
 def triple(factor: float = 1) -> ss.MultiPendulum:
@@ -61,13 +57,13 @@ def outer() -> ss.Slider:
 @cache
 def exact(factor: float = 1) -> list[ss.Response]:
     """The settled responses of the triple pendulum to the sample records."""
-    return [ss.integrate(triple(factor), record, settle=True) for record in ss.sample_records()]
+    return [ss.integrate(triple(factor), record, settle=True) for record in samples()]
 
 
 @cache
 def responses() -> dict[str, list[ss.Response]]:
     """The same of single pendulums that stand for it, by name."""
-    records = ss.sample_records()
+    records = samples()
     at_peak = [ss.integrate(equivalent(max(r.peak, 1e-3)), r.motion, settle=True) for r in exact()]
     typical = float(np.median([r.peak for r in exact()]))
     fixed = equivalent(typical)
@@ -155,8 +151,7 @@ def figure() -> Figure:
 
 
 def main() -> None:
-    rewrite(PAGE, tables().values())
-    draw(PICTURE, figure)
+    rewrite(PAGE, tables().values(), {PICTURE: figure})
 
 
 if __name__ == "__main__":

@@ -9,13 +9,11 @@ below. The other tables of these pages come from `build/dev/bench/pulse_theories
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
 import stickslip as ss
-from measured_page import rewrite, table
+from measured_page import DOCS, rewrite, table
 
-DOCS = Path(__file__).parent
 CHAIN, SUPERPOSITION = DOCS / "pulse_chain.md", DOCS / "pulse_superposition.md"
 
 BLOCK = ss.Coulomb(slip_level=1.0)

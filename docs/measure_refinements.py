@@ -10,82 +10,37 @@ Farm in the folder that $STICKSLIP_RECORDS names, and stays as it is without it.
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 import stickslip as ss
-from measured_page import draw, rewrite, table
+from measured_page import (
+    DOCS,
+    STATION,
+    G,
+    components,
+    flat,
+    rewrite,
+    samples,
+    spread,
+    station,
+    table,
+    triples,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-DOCS = Path(__file__).parent
 PAGE = DOCS / "refinements.md"
 PICTURE = DOCS / "images" / "refinements.png"
-STATION = Path("geonet", "20161113_110259_WTMC_20.V2A")
 
-G = ss.STANDARD_GRAVITY
 SLIDES = 1e-3  # [m]; smaller displacements give no ratio
 LAW = {"mu_slow": 0.03, "mu_fast": 0.06, "rate": 100}  # Kumar et al.
 PTFE = {"mu_slow": 0.085, "mu_fast": 0.163, "rate": 0.77 / 0.0254}  # OpenSees, 0.77 s/in
 PERIOD, RADIUS = 3.0, G * (3.0 / (2 * math.pi)) ** 2  # of floors and pendulums [s], [m]
-
-
-# ---- ground motions
-
-
-@cache
-def samples() -> tuple[ss.GroundMotion, ...]:
-    """The 18 sample records, one axis each."""
-    return tuple(ss.sample_records())
-
-
-@cache
-def triples(pga_g: float, ratio: float, count: int = 50) -> tuple[ss.GroundMotion, ...]:
-    """Both axes of synthetic triples, each with the vertical component of its triple.
-
-    Filtered white noise (Clough-Penzien) in an envelope of 20 s. Each horizontal component has the
-    peak acceleration pga_g, the vertical one `ratio` times that and twice the frequency.
-    """
-
-    dt, samples = 0.01, 2001
-    time = dt * np.arange(samples)
-    envelope = np.minimum(1, (time / 3) ** 2) * np.exp(-0.4 * np.maximum(0, time - 11))
-
-    def component(frequency: float, pga: float, member: int) -> np.ndarray:
-        noise = ss.Spectrum.clough_penzien(
-            s0=1, frequency=frequency, damping=0.6, filter_frequency=1.5, filter_damping=0.6
-        )
-        stationary = ss.GaussianExcitation(noise, dt=dt, samples=samples)
-        n = envelope * stationary.sample(seed=19, member=member).acceleration
-        return n * (pga * G / np.abs(n).max())
-
-    found = []
-    for k in range(count):
-        up = component(30, ratio * pga_g, 3 * k + 2)
-        for axis in (0, 1):
-            n = component(15, pga_g, 3 * k + axis)
-            found.append(ss.GroundMotion(n, dt=dt, vertical=up))
-    return tuple(found)
-
-
-@cache
-def station() -> tuple[ss.GroundMotion, ...]:
-    """Both horizontal axes of Te Mara Farm with its vertical component, or nothing."""
-    file = Path(os.environ.get("STICKSLIP_RECORDS", "")) / STATION
-    if not file.is_file():
-        return ()
-    return tuple(ss.read_station(file, component=number) for number in (1, 2))
-
-
-def flat(motion: ss.GroundMotion) -> ss.GroundMotion:
-    """The component along the axis alone."""
-    return motion.component("axis")
 
 
 # ---- ratios
@@ -130,17 +85,13 @@ def summary(pair: Pair, motions: Iterable[ss.GroundMotion]) -> list[str]:
     found = measure(pair, motions)
     slid = (found.peak >= SLIDES).sum(axis=0)
     peak, residual = found.ratio(found.peak), found.ratio(found.residual)
-    low, high = np.percentile(peak, (16, 84))
-    left, right = np.percentile(residual, (16, 84))
     return [
         pair.name,
         pair.against,
         f"{slid[1]}, {slid[0]}",
-        f"{np.median(peak):.2f}",
-        f"{low:.2f} to {high:.2f}",
+        *spread(peak),
         f"{peak.min():.2f} to {peak.max():.2f}",
-        f"{np.median(residual):.2f}",
-        f"{left:.2f} to {right:.2f}",
+        *spread(residual),
     ]
 
 
@@ -149,67 +100,36 @@ COLUMNS = (
     " residual: median | 16 to 84 % |"
 )
 
+
+def against(name: str, refined: object, mu: float, spring: bool = False) -> Pair:
+    """A slider beside one with a constant coefficient."""
+    plain = floor(ss.Coulomb(mu=mu)) if spring else ss.Coulomb(mu=mu)
+    return Pair(name, refined, f"{mu:.3g}", plain)
+
+
+def static(mu: float) -> ss.StaticKinetic:
+    return ss.StaticKinetic(mu_static=mu / 0.75, mu_kinetic=mu)
+
+
+def degrading(distance: float, first: float, last: float) -> ss.Degrading:
+    return ss.Degrading(distance=[0, distance], mu=[first, last])
+
+
 BLOCKS = (
-    Pair(
-        "static 0.133, kinetic 0.1",
-        ss.StaticKinetic(mu_static=0.1 / 0.75, mu_kinetic=0.1),
-        "0.1",
-        ss.Coulomb(mu=0.1),
-    ),
-    Pair(
-        "the same",
-        ss.StaticKinetic(mu_static=0.1 / 0.75, mu_kinetic=0.1),
-        "0.133",
-        ss.Coulomb(mu=0.1 / 0.75),
-    ),
-    Pair(
-        "static 0.267, kinetic 0.2",
-        ss.StaticKinetic(mu_static=0.2 / 0.75, mu_kinetic=0.2),
-        "0.2",
-        ss.Coulomb(mu=0.2),
-    ),
-    Pair(
-        "the same",
-        ss.StaticKinetic(mu_static=0.2 / 0.75, mu_kinetic=0.2),
-        "0.267",
-        ss.Coulomb(mu=0.2 / 0.75),
-    ),
-    Pair(
+    against("static 0.133, kinetic 0.1", static(0.1), 0.1),
+    against("the same", static(0.1), 0.1 / 0.75),
+    against("static 0.267, kinetic 0.2", static(0.2), 0.2),
+    against("the same", static(0.2), 0.2 / 0.75),
+    against(
         "Stribeck, 0.133 to 0.1, 0.05 m/s",
         ss.Stribeck(mu_static=0.1 / 0.75, mu_kinetic=0.1, velocity=0.05, exponent=1),
-        "0.1",
-        ss.Coulomb(mu=0.1),
+        0.1,
     ),
-    Pair(
-        "PTFE, 0.085 to 0.163, 30.3 s/m",
-        ss.VelocityDependent(**PTFE),
-        "0.163",
-        ss.Coulomb(mu=0.163),
-    ),
-    Pair(
-        "the same",
-        ss.VelocityDependent(**PTFE),
-        "0.085",
-        ss.Coulomb(mu=0.085),
-    ),
-    Pair(
-        "falls, 0.2 to 0.133 in 10 cm",
-        ss.Degrading(distance=[0, 0.1], mu=[0.2, 0.2 / 1.5]),
-        "0.2",
-        ss.Coulomb(mu=0.2),
-    ),
-    Pair(
-        "falls, 0.2 to 0.133 in 1 cm",
-        ss.Degrading(distance=[0, 0.01], mu=[0.2, 0.2 / 1.5]),
-        "0.2",
-        ss.Coulomb(mu=0.2),
-    ),
-    Pair(
-        "steel on mortar, rises, 0.5 to 0.8 in 10 cm",
-        ss.Degrading(distance=[0, 0.1], mu=[0.5, 0.8]),
-        "0.5",
-        ss.Coulomb(mu=0.5),
-    ),
+    against("PTFE, 0.085 to 0.163, 30.3 s/m", ss.VelocityDependent(**PTFE), 0.163),
+    against("the same", ss.VelocityDependent(**PTFE), 0.085),
+    against("falls, 0.2 to 0.133 in 10 cm", degrading(0.1, 0.2, 0.2 / 1.5), 0.2),
+    against("falls, 0.2 to 0.133 in 1 cm", degrading(0.01, 0.2, 0.2 / 1.5), 0.2),
+    against("steel on mortar, rises, 0.5 to 0.8 in 10 cm", degrading(0.1, 0.5, 0.8), 0.5),
 )
 
 
@@ -218,38 +138,24 @@ def floor(law: object, **more: object) -> ss.Slider:
 
 
 LINER = ss.VelocityDependent(**LAW)
+PLAIN = floor(ss.Coulomb(mu=0.06))
 FLOORS = (
-    Pair(
-        "speed, 0.03 to 0.06, 100 s/m",
-        floor(LINER),
-        "0.06",
-        floor(ss.Coulomb(mu=0.06)),
-    ),
-    Pair("the same", floor(LINER), "0.03", floor(ss.Coulomb(mu=0.03))),
-    Pair(
+    against("speed, 0.03 to 0.06, 100 s/m", floor(LINER), 0.06, spring=True),
+    against("the same", floor(LINER), 0.03, spring=True),
+    against(
         "static 0.08, kinetic 0.06",
         floor(ss.StaticKinetic(mu_static=0.08, mu_kinetic=0.06)),
-        "0.06",
-        floor(ss.Coulomb(mu=0.06)),
+        0.06,
+        spring=True,
     ),
-    Pair(
-        "damping 10 %",
-        floor(ss.Coulomb(mu=0.06), damping_ratio=0.1),
-        "undamped",
-        floor(ss.Coulomb(mu=0.06)),
-    ),
+    Pair("damping 10 %", floor(ss.Coulomb(mu=0.06), damping_ratio=0.1), "undamped", PLAIN),
     Pair(
         "stops at 10 cm, restitution 0.3",
         floor(ss.Coulomb(mu=0.06), stops=ss.Stops(gap=0.1, restitution=0.3)),
         "no stops",
-        floor(ss.Coulomb(mu=0.06)),
+        PLAIN,
     ),
-    Pair(
-        "no spring",
-        ss.Coulomb(mu=0.06),
-        "spring",
-        floor(ss.Coulomb(mu=0.06)),
-    ),
+    Pair("no spring", ss.Coulomb(mu=0.06), "spring", PLAIN),
 )
 
 
@@ -294,6 +200,7 @@ def shaken(name: str, slider: object, plain: object = None, **more: object) -> P
 
 
 PENDULUM = ss.FrictionPendulum(radius=RADIUS, mu=0.06)
+MIDDLE = ss.Coulomb(mu=0.3)
 STEEP = slope(20)[0]
 VERTICAL = (
     *(
@@ -301,32 +208,18 @@ VERTICAL = (
         for pga, ratio in ((0.4, 2 / 3), (0.4, 1), (0.4, 1.5))
         for mu in (0.1, 0.2, 0.3)
     ),
-    (shaken("block, mu = 0.3", ss.Coulomb(mu=0.3)), 1.0, 2.0),
-    (
-        Pair(
-            "block, mu = 0.3, clipped",
-            ss.Coulomb(mu=0.3),
-            "flight",
-            ss.Coulomb(mu=0.3),
-            contact="clipped",
-        ),
-        1.0,
-        2.0,
-    ),
+    (shaken("block, mu = 0.3", MIDDLE), 1.0, 2.0),
+    (Pair("block, mu = 0.3, clipped", MIDDLE, "flight", MIDDLE, contact="clipped"), 1.0, 2.0),
     (shaken("pendulum, mu = 0.06", PENDULUM), 0.4, 2 / 3),
     (shaken("pendulum, mu = 0.06", PENDULUM), 0.4, 1),
-    (
-        Pair("the same", PENDULUM, "constant spring", floor(ss.Coulomb(mu=0.06))),
-        0.4,
-        1,
-    ),
+    (Pair("the same", PENDULUM, "constant spring", PLAIN), 0.4, 1),
     (shaken("slope of 20 degrees, ky = 0.1 g", STEEP), 0.4, 2 / 3),
     (shaken("slope of 20 degrees, ky = 0.1 g", STEEP), 0.4, 1),
 )
 
 
 def of_triples(pair: Pair, pga: float, ratio: float) -> list[str]:
-    motions = triples(pga, ratio)
+    motions = components(triples(pga, ratio))
     if pair.refined is STEEP:
         motions = both(motions)
     name, *rest = summary(pair, motions)
@@ -373,23 +266,16 @@ class Isolator:
     motions: Callable[[], Iterable[ss.GroundMotion]]
 
 
+LINERS = ss.FrictionPendulum(radius=RADIUS, **LAW)
 ISOLATORS = (
-    Isolator("0.03 to 0.06, 18 records", ss.FrictionPendulum(radius=RADIUS, **LAW), 0.06, samples),
+    Isolator("0.03 to 0.06, 18 records", LINERS, 0.06, samples),
     Isolator(
         "0.085 to 0.163, 18 records", ss.FrictionPendulum(radius=RADIUS, **PTFE), 0.163, samples
     ),
     Isolator(
-        "0.03 to 0.06, triples, V/H = 2/3",
-        ss.FrictionPendulum(radius=RADIUS, **LAW),
-        0.06,
-        lambda: triples(0.4, 2 / 3),
+        "0.03 to 0.06, triples, V/H = 2/3", LINERS, 0.06, lambda: components(triples(0.4, 2 / 3))
     ),
-    Isolator(
-        "0.03 to 0.06, triples, V/H = 1",
-        ss.FrictionPendulum(radius=RADIUS, **LAW),
-        0.06,
-        lambda: triples(0.4, 1),
-    ),
+    Isolator("0.03 to 0.06, triples, V/H = 1", LINERS, 0.06, lambda: components(triples(0.4, 1))),
 )
 
 
@@ -486,10 +372,9 @@ def fits(isolator: Isolator) -> tuple[Fit, ...]:
     return tuple(one for one in found if one)
 
 
-def spread(values: Iterable[float]) -> tuple[str, str]:
+def extremes(values: Iterable[float]) -> list[str]:
     """Median and extremes of those that exist."""
-    here = np.array([value for value in values if not math.isnan(value)])
-    return f"{np.median(here):.2f}", f"{here.min():.2f} to {here.max():.2f}"
+    return spread(values, 0, 100)
 
 
 def of_isolator(isolator: Isolator) -> list[str]:
@@ -501,9 +386,9 @@ def of_isolator(isolator: Isolator) -> list[str]:
         isolator.name,
         str(len(found)),
         f"{np.nanmin(mus):.2f} to {np.nanmax(mus):.2f}",
-        *spread(one.force_ratio for one in found),
+        *extremes(one.force_ratio for one in found),
         str(off),
-        *spread(one.peak_ratio for one in found),
+        *extremes(one.peak_ratio for one in found),
         f"{100 * np.median(compromise):.1f}, {100 * compromise.max():.1f}",
         str(sum(compromise <= 0.01)),
     ]
@@ -513,10 +398,10 @@ def of_fast(isolator: Isolator) -> list[list[str]]:
     """With constant normal force, and, under vertical motion, with N(t)."""
     found = fits(isolator)
     constant = [(*one.at_fast, one.residual_at_fast) for one in found]
-    rows = [[isolator.name, *(cell for ratios in zip(*constant) for cell in spread(ratios))]]
+    rows = [[isolator.name, *(cell for ratios in zip(*constant) for cell in extremes(ratios))]]
     if found[0].motion.vertical is not None:
         under = zip(*(one.under_normal for one in found))
-        rows.append(["the same, but under N(t)", *(cell for r in under for cell in spread(r))])
+        rows.append(["the same, but under N(t)", *(cell for r in under for cell in extremes(r))])
     return rows
 
 
@@ -594,10 +479,9 @@ def draw_fits() -> Figure:
 
 def main() -> None:
     found = tables()
-    rewrite(PAGE, found.values())
+    rewrite(PAGE, found.values(), {PICTURE: draw_fits})
     if "station" not in found:
         print(f"no $STICKSLIP_RECORDS/{STATION}: the table of that station stays as it is")
-    draw(PICTURE, draw_fits)
 
 
 if __name__ == "__main__":

@@ -13,18 +13,16 @@ import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import stickslip as ss
-from measured_page import draw, rewrite, table
+from measured_page import DOCS, G, rewrite, samples, spread, table
 from stickslip import regressions
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-DOCS = Path(__file__).parent
 PAGE = DOCS / "regressions.md"
 PICTURE = DOCS / "images" / "regressions.png"
 
@@ -104,11 +102,6 @@ FORMS = (
 
 
 @cache
-def samples() -> ss.Suite:
-    return ss.sample_records()
-
-
-@cache
 def arguments() -> dict[str, np.ndarray | float]:
     """What no measure of a record gives: one row for each record."""
     suite = samples()
@@ -135,7 +128,7 @@ def predict(form: Form, ts: float = 0.0) -> regressions.Prediction:
 
 def peak_ground_acceleration() -> np.ndarray:
     """PGA [g], shape (records, 1)."""
-    return ss.strong_motion(samples()).peak_acceleration[:, None] / ss.STANDARD_GRAVITY
+    return ss.strong_motion(samples()).peak_acceleration[:, None] / G
 
 
 # ---- the models beside exact sliding
@@ -202,13 +195,12 @@ def referees() -> tuple[Referee, ...]:
 
 
 def row(one: Referee) -> list[str]:
-    low, high = np.exp(np.percentile(one.error, (16, 84)))
     sigma = "unknown" if one.sigma is None else f"{one.sigma.mean():.2f}"
     return [
         one.form.name,
         f"{one.bias:.2f}",
         f"{math.exp(one.uncertainty):.2f}",
-        f"{low:.2f} to {high:.2f}",
+        spread(np.exp(one.error))[1],
         f"{one.scatter:.2f}",
         sigma,
         "" if one.within is None else f"{100 * one.within:.0f} %",
@@ -247,7 +239,7 @@ def at(name: str, ts: float = FLEXIBLE, index: int = 0) -> regressions.Predictio
 def other_spectral_period() -> np.ndarray:
     """Bray and Travasarou with Sa at 1.3 Ts."""
     right = at("Bray, Travasarou")
-    sa = ss.response_spectrum(samples(), 1.3 * FLEXIBLE).values / ss.STANDARD_GRAVITY
+    sa = ss.response_spectrum(samples(), 1.3 * FLEXIBLE).values / G
     wrong = regressions.BrayTravasarou2007().predict(
         ky=LEVELS, Sa=np.reshape(sa, (-1, 1)), Ts=FLEXIBLE, M=arguments()["M"]
     )
@@ -266,7 +258,7 @@ def mean_period_for_period() -> np.ndarray:
 def without_dimension() -> np.ndarray:
     """Yegian's D* taken as centimeters."""
     given = at("Yegian").arguments
-    unit = given["pga"] * ss.STANDARD_GRAVITY * given["Neq"] * given["T"] ** 2
+    unit = given["pga"] * G * given["Neq"] * given["T"] ** 2
     return 0.01 / unit
 
 
@@ -462,8 +454,7 @@ def figure() -> Figure:
 
 def main() -> None:
     warnings.simplefilter("ignore", regressions.RangeWarning)  # of the smallest and largest ky
-    rewrite(PAGE, tables().values())
-    draw(PICTURE, figure)
+    rewrite(PAGE, tables().values(), {PICTURE: figure})
 
 
 if __name__ == "__main__":

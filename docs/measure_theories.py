@@ -7,15 +7,13 @@ rewrites the table of that page. Takes some five minutes with the default of 20,
 
 from __future__ import annotations
 
-import math
 import sys
-from collections.abc import Iterator
-from pathlib import Path
 
 import stickslip as ss
-from measured_page import rewrite, table
+from measure_transport import Setting
+from measured_page import DOCS, rewrite, shaking, shown, table, white
 
-PAGE = Path(__file__).parent / "theories.md"
+PAGE = DOCS / "theories.md"
 MEMBERS = 20_000
 SEED = 1
 
@@ -37,38 +35,12 @@ LINER = ss.VelocityDependent(slow=0.5, fast=1.0, rate=2.0)
 STICKY = ss.StaticKinetic(BLOCK, static=1.5)
 
 
-def held_white(dt: float, samples: int) -> ss.GaussianExcitation:
-    """White noise of the level S0 = 1, with its line at zero frequency."""
-    return ss.GaussianExcitation(
-        ss.Spectrum.white(s0=1.0),
-        dt,
-        samples,
-        interpolation="constant",
-        correct_interpolation=False,
-        zero_frequency=True,
-        random_amplitudes=True,
-    )
-
-
-def ground(spectrum: ss.Spectrum) -> ss.GaussianExcitation:
-    return ss.GaussianExcitation(
-        spectrum, 0.05, 801, period=3204, zero_frequency=True, random_amplitudes=True
-    )
-
-
-def soil(rms: float, damping: float = 0.6) -> ss.GaussianExcitation:
+def soil(rms: float) -> ss.GaussianExcitation:
     """A Kanai-Tajimi ground of frequency 1."""
-    s0 = rms**2 * 2 * damping / (math.pi * (1 + 4 * damping**2))
-    return ground(ss.Spectrum.kanai_tajimi(s0=s0, frequency=1.0, damping=damping))
+    return shaking(Setting(0.6, rms).spectrum(), 0.05, 801)
 
 
-def damper(rms: float, damping: float = 0.6) -> ss.theory.ShapingFilter:
-    """The damper of such a ground alone: it has no content at zero frequency."""
-    s0 = rms**2 / (2 * math.pi * damping)
-    return ss.theory.ShapingFilter(s0, [(0, 2 * damping, 0, 2 * damping, 1)])
-
-
-DAMPER = damper(1.5)
+DAMPER = Setting(0.6, 1.5, content=False)  # no content at zero frequency
 
 
 def pulses(rate: float, sigma: float) -> ss.PoissonPulses:
@@ -78,9 +50,9 @@ def pulses(rate: float, sigma: float) -> ss.PoissonPulses:
 #: Slider, excitation, and what they are called, in the units of the level a, and of S0, the
 #: frequency of the ground or the half width of the pulses.
 SETTINGS = [
-    ("block", "white noise, t = 30", BLOCK, held_white(0.02, 1501)),
-    ("block, levels 1 : 1.5", "white noise, t = 30", UNEQUAL, held_white(0.02, 1501)),
-    ("caster, gamma = 0.1", "white noise, t = 15", CART, held_white(0.02, 751)),
+    ("block", "white noise, t = 30", BLOCK, white(0.02, 1501)),
+    ("block, levels 1 : 1.5", "white noise, t = 30", UNEQUAL, white(0.02, 1501)),
+    ("caster, gamma = 0.1", "white noise, t = 15", CART, white(0.02, 751)),
     ("block", "Kanai-Tajimi, rms / a = 0.6", BLOCK, soil(0.6)),
     ("block", "1.5", BLOCK, soil(1.5)),
     ("block", "6", BLOCK, soil(6.0)),
@@ -113,12 +85,13 @@ def cell(comparison: ss.Comparison, names: list[str]) -> str:
 def row(setting: tuple, members: int) -> list[str]:
     slider_name, excitation_name, slider, source = setting
     excitation = source
-    if isinstance(source, ss.theory.ShapingFilter):
-        excitation = ground(ss.Spectrum.from_function(source, high=math.inf))
+    if source is DAMPER:
+        excitation = shaking(DAMPER.spectrum(), 0.05, 801)
     end = excitation.duration
     comparison = ss.compare(slider, excitation, [end], members=members, seed=SEED)
-    if excitation is not source:  # of a function `Transport` does not know the filter
-        comparison.theories["Transport"] = ss.theory.Transport().predict(slider, source, [end])
+    if source is DAMPER:  # of a function `Transport` does not know the filter
+        transport = ss.theory.Transport().predict(slider, DAMPER.filter, [end])
+        comparison.theories["Transport"] = transport
     scatter = []
     for statistic in ("displacement_variance", "velocity_variance"):
         value, error = comparison.simulated(statistic)
@@ -131,17 +104,8 @@ def row(setting: tuple, members: int) -> list[str]:
 HEADING = "| slider | excitation | " + " | ".join(COLUMNS) + " | error of simulation, % |"
 
 
-def rows(members: int = MEMBERS) -> Iterator[list[str]]:
-    for setting in SETTINGS:
-        yield row(setting, members)
-
-
 def main(members: int) -> None:
-    found = []
-    for cells in rows(members):
-        found.append(cells)
-        print(" | ".join(cells), flush=True)
-    rewrite(PAGE, [table(HEADING, found)])
+    rewrite(PAGE, [table(HEADING, shown(row(setting, members) for setting in SETTINGS))])
 
 
 if __name__ == "__main__":

@@ -11,14 +11,13 @@ import math
 import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import stickslip as ss
-from measured_page import rewrite, table
+from measured_page import DOCS, rewrite, shaking, shown, table
 
-PAGE = Path(__file__).parent / "transport.md"
+PAGE = DOCS / "transport.md"
 MEMBERS = 200_000
 LAST = 60.0  # wg t
 DT = 0.05  # of the simulation, wg dt: at a tenth of the theory's step
@@ -193,15 +192,7 @@ def drawn_pulses(count: int, seed: int = 1) -> Iterator[Pulses]:
 
 def simulated(setting: Setting, members: int, seed: int = 1) -> ss.Ensemble:
     dt = DT / 4 if setting.law.startswith("static") else DT
-    samples = round(LAST / dt) + 1
-    excitation = ss.GaussianExcitation(
-        setting.spectrum(),
-        dt,
-        samples,
-        random_amplitudes=True,
-        zero_frequency=True,
-        period=4 * samples,
-    )
+    excitation = shaking(setting.spectrum(), dt, round(LAST / dt) + 1)
     return ss.run_ensemble(setting.slider, excitation, members=members, seed=seed, dt=LAST / 4)
 
 
@@ -320,23 +311,6 @@ PULSE_COVERAGE = (
 COVERAGE = "| settings | values | within the stated error and 3 standard errors |"
 
 
-def others(members: int) -> list[str]:
-    """The tables of other laws, casters and drift."""
-    rows = []
-    for setting in OTHERS:
-        cells, _ = row(setting, members)
-        rows.append(cells)
-        print(" | ".join(cells), flush=True)
-    casters, drifts = list(caster_rows()), list(drift_rows(members))
-    for cells in casters + drifts:
-        print(" | ".join(cells), flush=True)
-    return [
-        table(OTHER_HEADING, rows),
-        table(CASTER_HEADING, casters),
-        table(DRIFT_HEADING, drifts),
-    ]
-
-
 def coverage(
     heading: str,
     drawn_by: Callable[[int], Iterator[Any]],
@@ -355,27 +329,24 @@ def coverage(
     )
 
 
-def pulse_tables(members: int) -> list[str]:
-    """The tables of pulses."""
-    rows = []
-    for setting in PULSES:
-        cells, _ = pulse_row(setting, members)
-        rows.append(cells)
-        print(" | ".join(cells), flush=True)
-    return [table(PULSE_HEADING, rows), coverage(PULSE_COVERAGE, drawn_pulses, pulse_row, members)]
-
-
 def main(members: int) -> None:
-    rows = []
-    for setting in TABLE:
-        cells, _ = row(setting, members)
-        rows.append(cells)
-        print(" | ".join(cells), flush=True)
-    covered = coverage(
-        COVERAGE, drawn, lambda setting, many: row(setting, many, tolerance=0.03), members // 4
-    )
-    tables = [table(HEADING, rows), covered, *others(members // 4)]
-    rewrite(PAGE, tables + pulse_tables(members // 4))
+    few = members // 4
+    others = (row(setting, few)[0] for setting in OTHERS)
+    pulses = (pulse_row(setting, few)[0] for setting in PULSES)
+
+    def loosely(setting: Setting, many: int) -> tuple[list[str], list[bool]]:
+        return row(setting, many, tolerance=0.03)
+
+    tables = [
+        table(HEADING, shown(row(setting, members)[0] for setting in TABLE)),
+        coverage(COVERAGE, drawn, loosely, few),
+        table(OTHER_HEADING, shown(others)),
+        table(CASTER_HEADING, shown(caster_rows())),
+        table(DRIFT_HEADING, shown(drift_rows(few))),
+        table(PULSE_HEADING, shown(pulses)),
+        coverage(PULSE_COVERAGE, drawn_pulses, pulse_row, few),
+    ]
+    rewrite(PAGE, tables)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +24,7 @@ from ._tables import (
 )
 from ._text import printable
 
-__all__ = ["Tabular", "same"]
+__all__ = ["Tabular", "over", "same"]
 
 _MOST_ROWS = 20  # in a notebook
 
@@ -102,6 +102,26 @@ class Tabular(ABC):
             f", the first {_MOST_ROWS}" if count > _MOST_ROWS else ""
         )
         return html_table(title, heads, ([_shown(cell) for cell in row] for row in rows))
+
+
+def over(
+    *axes: Mapping[str, Sequence[Any] | NDArray[Any]], **arrays: NDArray[Any]
+) -> dict[str, NDArray[Any] | Repeated]:
+    """The columns of arrays over axes: a row for each element, the last axis varying fastest.
+
+    Parameters
+    ----------
+    axes : mapping of str to array_like
+        For each axis its name with its values, and other columns along it.
+    arrays : ndarray
+        By name, all of the shape of the axes.
+    """
+    shape = tuple(len(next(iter(columns.values()))) for columns in axes)
+    found: dict[str, NDArray[Any] | Repeated] = {}
+    for columns, index in zip(axes, np.indices(shape)):
+        places = index.ravel()
+        found |= {name: Repeated(np.asarray(one), places) for name, one in columns.items()}
+    return found | {name: array.ravel() for name, array in arrays.items()}
 
 
 def _first(column: NDArray[Any] | Repeated, count: int | None) -> NDArray[Any]:

@@ -68,6 +68,13 @@ def assert_same_picture(drawn, shown):
     assert np.mean(np.abs(first - second).max(axis=2) > 0.25) < 0.004
 
 
+def assert_same_figure(figure, shown, folder):
+    """The picture that a page shows is the one that a function draws."""
+    drawn = folder / shown.name
+    measuring("measured_page").draw(drawn, figure)
+    assert_same_picture(drawn, shown)
+
+
 def run(page, code, names):
     exec(compile(code, str(page), "exec"), names)
 

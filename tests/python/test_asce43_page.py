@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import stickslip as ss
-from pages import ROOT, assert_same_picture, assert_same_table, measuring
+from pages import ROOT, assert_same_figure, assert_same_table, measuring
 from stickslip.risk import asce43 as search
 
 PAGE = ROOT / "docs" / "asce43.md"
@@ -43,8 +43,7 @@ def test_a_table_of_agency_files_is_what_comes_out(tables, agency_files, name):
 @pytest.mark.slow
 def test_the_picture_is_what_comes_out(tables, tmp_path):
     pytest.importorskip("matplotlib")
-    measured.draw(tmp_path / "picture.png", measured.figure)
-    assert_same_picture(tmp_path / "picture.png", measured.PICTURE)
+    assert_same_figure(measured.figure, measured.PICTURE, tmp_path)
 
 
 def test_the_estimate_is_a_spectral_displacement(pyslammer_files):

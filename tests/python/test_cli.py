@@ -611,7 +611,7 @@ def test_without_enough_memory_there_is_one_line(capsys, record, monkeypatch, te
     said = "not enough memory" + (f": {text}" if text.startswith("U") else "")
     monkeypatch.setattr("stickslip.ensemble.run_ensemble", full)
     assert run_ensemble(capsys, *QUAKE) == (2, "", f"stickslip: {said}\n")
-    monkeypatch.setattr("stickslip.cli.batch.tried", full)
+    monkeypatch.setattr("stickslip.cli.reading.tried", full)
     assert run(capsys, record, "--mu", 0.1) == (1, "", f"stickslip: {record}: {said}\n")
 
 
@@ -918,7 +918,7 @@ def test_a_warning_is_one_line(capsys, record, monkeypatch):
         warnings.warn("two\nlines", stacklevel=1)
         return tried(*arguments, **options)
 
-    monkeypatch.setattr("stickslip.cli.batch.tried", warned)
+    monkeypatch.setattr("stickslip.cli.reading.tried", warned)
     with warnings.catch_warnings():
         warnings.simplefilter("default")
         code, _, err = run(capsys, record, "--mu", 0.1)

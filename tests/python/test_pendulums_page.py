@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from pages import ROOT, assert_same_picture, assert_same_table, measuring
+from pages import ROOT, assert_same_figure, assert_same_table, measuring
 
 PAGE = ROOT / "docs" / "pendulums.md"
 measured = measuring("measure_pendulums")
@@ -16,8 +16,7 @@ def test_the_tables_are_what_comes_out(pyslammer_files, name):
 
 def test_the_picture_is_what_comes_out(pyslammer_files, tmp_path):
     pytest.importorskip("matplotlib")
-    measured.draw(tmp_path / "picture.png", measured.figure)
-    assert_same_picture(tmp_path / "picture.png", measured.PICTURE)
+    assert_same_figure(measured.figure, measured.PICTURE, tmp_path)
 
 
 def test_what_the_page_says_about_the_bounds_of_friction(pyslammer_files):

@@ -6,7 +6,7 @@ import re
 import numpy as np
 import pytest
 import stickslip as ss
-from pages import ROOT, assert_same_picture, assert_same_table, measuring
+from pages import ROOT, assert_same_figure, assert_same_table, measuring
 
 PAGE = ROOT / "docs" / "regressions.md"
 TEXT = PAGE.read_text(encoding="utf-8")
@@ -34,8 +34,7 @@ def test_a_table_is_what_comes_out(referees, name):
 
 def test_the_picture_is_what_comes_out(referees, tmp_path):
     pytest.importorskip("matplotlib")
-    measured.draw(tmp_path / "picture.png", measured.figure)
-    assert_same_picture(tmp_path / "picture.png", measured.PICTURE)
+    assert_same_figure(measured.figure, measured.PICTURE, tmp_path)
 
 
 def test_the_exact_displacements_are_those_of_integrate(referees):

@@ -27,7 +27,6 @@ import argparse
 import sys
 import warnings
 
-from .batch import StrictError
 from .completion import add_completion, complete
 from .ensemble import add_ensemble
 from .fragility import add_fragility
@@ -36,6 +35,7 @@ from .orientations import add_orientations
 from .output import FAILURES, complain, reason_of, version, write
 from .parser import Parser
 from .records import add_records
+from .report import StrictError
 from .slide import add_slide
 from .spectrum import add_spectrum
 from .sweep import add_sweep

@@ -6,40 +6,21 @@ import argparse
 
 from .. import IsolatedStructure, PlanarSlider, Slider, Structure
 from .output import check_not_negative, check_positive
-from .parser import StoreAll, group, number, ratio
 
-__all__ = ["add_building", "building_on"]
+__all__ = ["BUILDING", "building_on"]
 
 _OPTIONS = ("story_masses", "story_stiffnesses", "base_mass", "story_damping_ratio")
-
-
-def add_building(parser: argparse.ArgumentParser) -> None:
-    """Add the options that `building_on` reads."""
-    add = group(parser, "building").add_argument
-    add(
-        "--story-masses",
-        nargs="+",
-        action=StoreAll,
-        type=number,
-        metavar="KG",
-        help="a shear building on the block, which is its base: masses of its floors, bottom up"
-        " [kg]",
-    )
-    add(
-        "--story-stiffnesses",
-        nargs="+",
-        action=StoreAll,
-        type=number,
-        metavar="K",
-        help="building: stiffness of each story [N/m]",
-    )
-    add("--base-mass", type=number, metavar="KG", help="building: mass of the base [kg]")
-    add(
-        "--story-damping-ratio",
-        type=ratio,
-        metavar="Z",
-        help="building: damping ratio of each mode on a fixed base",
-    )
+BUILDING = """
+[building]
+--story-masses number*... KG
+    a shear building on the block, which is its base: masses of its floors, bottom up [kg]
+--story-stiffnesses number*... K
+    building: stiffness of each story [N/m]
+--base-mass number KG
+    building: mass of the base [kg]
+--story-damping-ratio ratio Z
+    building: damping ratio of each mode on a fixed base
+"""
 
 
 def building_on(

@@ -6,7 +6,6 @@ import argparse
 import math
 import sys
 from collections.abc import Iterable
-from pathlib import Path
 from typing import Any
 
 from .. import (
@@ -19,7 +18,8 @@ from .. import (
     WithVertical,
 )
 from .._text import printable
-from .building import add_building, building_on
+from .building import BUILDING, building_on
+from .options import add_options
 from .output import (
     FAILURES,
     check_not_negative,
@@ -29,13 +29,66 @@ from .output import (
     json_text,
     reason_of,
 )
-from .parser import number, numbers, ratio, text_argument, whole
-from .slider import add_contact, add_slider, any_slider_of
+from .slider import SLIDER, any_slider_of
 
 __all__ = ["add_ensemble"]
 
 _LEVELS = (0.01, 0.03, 0.1, 0.3, 1.0)  # default of --level [m]
 _SHARES_OF_FLOORS = (0.5, 0.95)
+_SOURCE = """
+[, one of, required]
+--event text NAME
+    a scenario from the list below
+--rate number R
+    Poisson pulse rate [1/s]
+--band number S0 LOW HIGH
+    Gaussian motion with two-sided spectral density S0 [m^2/s^3] from LOW to HIGH [rad/s]
+"""
+_MOTION = """
+--half-width number S
+    pulse half width [s] (with --rate)
+--sigma number A
+    rms pulse amplitude [m/s^2] (with --rate)
+--duration number S
+    duration [s] (with --rate)
+--dt number S
+    time step [s] (with --band)
+--samples whole N
+    number of samples (with --band)
+--vertical-ratio ratio R
+    add a vertical component, drawn independently of the horizontal one like it, and times this
+    ratio (V/H, often near 2/3)
+--planar
+    slide in both horizontal directions at once, under pairs: the transverse component is drawn like
+    the other one; the displacement is the distance from the start
+--transverse-ratio ratio R
+    factor on the transverse component (default 1; with --planar)
+--coherence ratio C
+    correlation of the two components, from -1 to 1 (default 0; with --planar)
+--mu ratio required
+    coefficient of friction [-]
+"""
+_RUN = """
+--members whole N = 10000
+    number of members (default 10000)
+--seed whole N = 0
+    random seed (default 0)
+--threads whole N
+    maximum number of threads (default: all cores)
+--settle
+    continue after each motion until the block rests
+--level numbers... M
+    peak displacements whose probability of exceedance is printed [m], at most --stop-gap (default
+    0.01 0.03 0.1 0.3 1)
+--confidence ratio P = 0.95
+    confidence level of the bounds (default 0.95)
+--checkpoint file FILE
+    file to save progress in; the run resumes from it if it exists
+--plot file FILE
+    picture (.png, .pdf, .svg)
+--json
+    one JSON document, SI units, exact doubles
+"""
 
 
 def add_ensemble(commands: argparse._SubParsersAction) -> None:
@@ -48,87 +101,7 @@ def add_ensemble(commands: argparse._SubParsersAction) -> None:
         " block may be the base of a building: --story-masses and the options with it.",
         epilog=f"Scenarios: {', '.join(PoissonPulses.events())}.",
     )
-    add = parser.add_argument
-    source = parser.add_mutually_exclusive_group(required=True)
-    source.add_argument(
-        "--event", metavar="NAME", type=text_argument, help="a scenario from the list below"
-    )
-    source.add_argument("--rate", type=number, metavar="R", help="Poisson pulse rate [1/s]")
-    source.add_argument(
-        "--band",
-        nargs=3,
-        type=number,
-        metavar=("S0", "LOW", "HIGH"),
-        help="Gaussian motion with two-sided spectral density S0 [m^2/s^3] from LOW to HIGH"
-        " [rad/s]",
-    )
-    add("--half-width", type=number, metavar="S", help="pulse half width [s] (with --rate)")
-    add("--sigma", type=number, metavar="A", help="rms pulse amplitude [m/s^2] (with --rate)")
-    add("--duration", type=number, metavar="S", help="duration [s] (with --rate)")
-    add("--dt", type=number, metavar="S", help="time step [s] (with --band)")
-    add("--samples", type=whole, metavar="N", help="number of samples (with --band)")
-    add(
-        "--vertical-ratio",
-        type=ratio,
-        metavar="R",
-        help="add a vertical component, drawn independently of the horizontal one like it, and"
-        " times this ratio (V/H, often near 2/3)",
-    )
-    add(
-        "--planar",
-        action="store_true",
-        help="slide in both horizontal directions at once, under pairs: the transverse component is"
-        " drawn like the other one; the displacement is the distance from the start",
-    )
-    add(
-        "--transverse-ratio",
-        type=ratio,
-        metavar="R",
-        help="factor on the transverse component (default 1; with --planar)",
-    )
-    add(
-        "--coherence",
-        type=ratio,
-        metavar="C",
-        help="correlation of the two components, from -1 to 1 (default 0; with --planar)",
-    )
-    add("--mu", type=ratio, required=True, help="coefficient of friction [-]")
-    add_slider(parser)
-    add_contact(parser)
-    add_building(parser)
-    add(
-        "--members",
-        type=whole,
-        default=10_000,
-        metavar="N",
-        help="number of members (default 10000)",
-    )
-    add("--seed", type=whole, default=0, metavar="N", help="random seed (default 0)")
-    add("--threads", type=whole, metavar="N", help="maximum number of threads (default: all cores)")
-    add("--settle", action="store_true", help="continue after each motion until the block rests")
-    add(
-        "--level",
-        nargs="+",
-        type=numbers,
-        metavar="M",
-        help="peak displacements whose probability of exceedance is printed [m], at most --stop-gap"
-        " (default 0.01 0.03 0.1 0.3 1)",
-    )
-    add(
-        "--confidence",
-        type=ratio,
-        default=0.95,
-        metavar="P",
-        help="confidence level of the bounds (default 0.95)",
-    )
-    add(
-        "--checkpoint",
-        type=Path,
-        metavar="FILE",
-        help="file to save progress in; the run resumes from it if it exists",
-    )
-    add("--plot", type=Path, metavar="FILE", help="picture (.png, .pdf, .svg)")
-    add("--json", action="store_true", help="one JSON document, SI units, exact doubles")
+    add_options(parser, _SOURCE, _MOTION, SLIDER, BUILDING, _RUN)
     parser.set_defaults(run=_ensemble, contact=None)  # a building is always clipped
 
 

@@ -6,14 +6,12 @@ import argparse
 import math
 import sys
 from collections.abc import Iterable
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .. import Coulomb, Lognormal
-from .._text import printable
-from .batch import Batch, add_files
-from .output import check_outputs, check_whole, json_text, write_csv
-from .parser import number, numbers, ratio, ratios, whole
+from .options import add_options
+from .output import check_whole
+from .reading import RECORDS, Records
 
 if TYPE_CHECKING:
     from ..risk.fragility import Bands, Fragility
@@ -21,6 +19,35 @@ if TYPE_CHECKING:
 __all__ = ["add_fragility"]
 
 _LEVEL = 0.9  # of the printed intervals
+_OPTIONS = """
+--mu ratio required
+    coefficient of friction [-]; its median
+--mu-beta number B = 0
+    its ln deviation (default 0)
+--members whole N
+    draws of it (default 100); with --mu-beta
+--seed whole N = 1
+    random seed (default 1)
+--pga ratios... G
+    levels of PGA [g] or ranges
+--thresholds numbers... M required
+    peak displacements [m] or ranges
+--method lognormal|logit|cloud
+    the fit (default: lognormal with --pga, otherwise cloud)
+--separate
+    a dispersion for each threshold
+--hazard file FILE
+    hazard curve of PGA [g] and annual rate, or a file of OpenQuake or USGS: prints the annual rates
+    of exceedance
+--years number T
+    time for --hazard (default 50)
+--plot file FILE
+    picture (.png, .pdf, .svg)
+--csv file FILE
+    write the table to a file, with all digits
+--json
+    one JSON document, SI units, exact doubles
+"""
 
 
 def add_fragility(commands: argparse._SubParsersAction) -> None:
@@ -39,39 +66,8 @@ def add_fragility(commands: argparse._SubParsersAction) -> None:
         " that cannot be read is reported in one line on stderr; the others count, and the exit"
         " code is 1.",
     )
-    add = parser.add_argument
-    add_files(parser)
-    add("--mu", type=ratio, required=True, help="coefficient of friction [-]; its median")
-    add("--mu-beta", type=number, default=0.0, metavar="B", help="its ln deviation (default 0)")
-    add("--members", type=whole, metavar="N", help="draws of it (default 100); with --mu-beta")
-    add("--seed", type=whole, default=1, metavar="N", help="random seed (default 1)")
-    add("--pga", nargs="+", type=ratios, metavar="G", help="levels of PGA [g] or ranges")
-    add(
-        "--thresholds",
-        nargs="+",
-        type=numbers,
-        required=True,
-        metavar="M",
-        help="peak displacements [m] or ranges",
-    )
-    add(
-        "--method",
-        choices=("lognormal", "logit", "cloud"),
-        help="the fit (default: lognormal with --pga, otherwise cloud)",
-    )
-    add("--separate", action="store_true", help="a dispersion for each threshold")
-    add(
-        "--hazard",
-        type=Path,
-        metavar="FILE",
-        help="hazard curve of PGA [g] and annual rate, or a file of OpenQuake or USGS: prints the"
-        " annual rates of exceedance",
-    )
-    add("--years", type=number, metavar="T", help="time for --hazard (default 50)")
-    add("--plot", type=Path, dest="curves", metavar="FILE", help="picture (.png, .pdf, .svg)")
-    add("--csv", type=Path, metavar="FILE", help="write the table to a file, with all digits")
-    add("--json", action="store_true", help="one JSON document, SI units, exact doubles")
-    parser.set_defaults(horizontal=True, run=_fragility, plot=None)
+    add_options(parser, RECORDS, _OPTIONS)
+    parser.set_defaults(horizontal=True, one_picture=True, run=_fragility)
 
 
 def _fragility(args: argparse.Namespace) -> str:
@@ -100,16 +96,15 @@ def _fragility(args: argparse.Namespace) -> str:
         block = Random(Coulomb, mu=Lognormal(median=args.mu, beta=args.mu_beta))
         drawn = {"members": args.members or 100, "seed": args.seed}
     hazard = read_pga_hazard(args.hazard) if args.hazard else None
-    batch = Batch(args)
-    if args.curves:
-        check_outputs([("--plot", args.curves)], batch.inputs)
-    motions = [found.motion for _, _, found in batch.motions()]
-    said = batch.finish()
+    records = Records(args)
+    report = records.report
+    motions = [found.motion for found in records]
+    _ = report.failures  # before the progress of the sweep
     if not motions:
-        return json_text({"results": [], **said}) if args.json else ""
+        return report.answer((), [], ())
     # Both components of a station are one record for the intervals.
     suite = Suite(motions, {"record": records_of_names([motion.name for motion in motions])})
-    records = len(set(suite.metadata["record"].tolist()))
+    count = len(set(suite.metadata["record"].tolist()))
     if args.pga:
         suite = suite.stripes(pga_g=sorted(args.pga))
     shown = sys.stderr is not None and sys.stderr.isatty()
@@ -120,7 +115,7 @@ def _fragility(args: argparse.Namespace) -> str:
         separate=args.separate,
         method=args.method or ("lognormal" if args.pga else "cloud"),
     )
-    bands = f.bands(_LEVEL, progress=shown) if records > 1 else None
+    bands = f.bands(_LEVEL, progress=shown) if count > 1 else None
     rows = _rows(f, bands)
     if hazard is not None:
         h = f.rate_of_exceedance(hazard)
@@ -128,21 +123,12 @@ def _fragility(args: argparse.Namespace) -> str:
         for row, rate, share, p in zip(rows, *rates):
             row |= {"rate_per_year": rate, "rate_extrapolated": share}
             row |= {"years": years, "probability": p}
-    written = [str(args.csv)] if args.csv else []
-    if args.csv:
-        write_csv(args.csv, list(rows[0]), rows)
-    if args.curves:
-        from ..plotting import save
-
+    if args.plot:
         friction = f"mu = {args.mu:g}" + (f", beta = {args.mu_beta:g}" if args.mu_beta else "")
-        title = f"{records} record{'s' if records > 1 else ''}, {friction}"
-        save(f.plot(level=_LEVEL if records > 1 else None, title=title), args.curves)
-        written.append(str(args.curves))
-    if args.json:
-        figures = [str(args.curves)] if args.curves else []
-        about = {"records": records, "method": f.method}
-        return json_text({**about, "results": rows, **said, "figures": figures})
-    return "\n".join([*_lines(rows, f.im_range), *(f"wrote {printable(name)}" for name in written)])
+        title = f"{count} record{'s' if count > 1 else ''}, {friction}"
+        report.save(f.plot(level=_LEVEL if count > 1 else None, title=title))
+    about = {"records": count, "method": f.method}
+    return report.answer(rows[0], rows, _lines(rows, f.im_range), **about)
 
 
 def _rows(f: Fragility, bands: Bands | None) -> list[dict[str, Any]]:

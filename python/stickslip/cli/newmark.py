@@ -22,9 +22,9 @@ from .. import (
 )
 from .._core import _most_modes as most_modes
 from .._text import printable
-from .batch import Batch, add_files
-from .output import check_not_negative, check_positive, check_whole, json_text, write_csv
-from .parser import number, ratio, ratios, whole
+from .options import add_options
+from .output import check_not_negative, check_positive, check_whole
+from .reading import RECORDS, Records
 
 if TYPE_CHECKING:
     from ..sweeps import SweepTable
@@ -33,6 +33,34 @@ __all__ = ["add_newmark", "newmark_rows"]
 
 _DISPLACEMENTS = ("normal_m", "inverse_m", "mean_m")
 _FLEXIBLE = ("decoupled", "coupled")
+_OPTIONS = """
+--ky ratios... required
+    yield accelerations [g] or ranges
+--scale-pga ratio G
+    scale each record to this PGA [g]
+--method rigid|decoupled|coupled...
+    one or more of: rigid, a rigid block (the default); decoupled, a rigid block that the base shear
+    of a flexible mass drives, as if the mass did not slide; coupled, a flexible mass that vibrates
+    and slides at once. Each row then names its method
+--height number M
+    flexible mass: height [m]
+--vs number V
+    flexible mass: shear-wave velocity [m/s]
+--damping-ratio ratio Z
+    flexible mass: damping ratio of each mode
+--reference-strain ratio G
+    flexible mass: equivalent-linear hyperbolic soil of this reference strain [-], which replaces
+    --damping-ratio
+--modes whole N
+    flexible mass: number of modes (default 1)
+--rock-vs number V
+    flexible mass: shear-wave velocity of the rock below [m/s], for radiation damping (default:
+    rigid rock)
+--csv file FILE
+    write the rows to a file, with all digits
+--json
+    one JSON document, SI units, exact doubles
+"""
 
 
 def add_newmark(commands: argparse._SubParsersAction) -> None:
@@ -50,41 +78,8 @@ def add_newmark(commands: argparse._SubParsersAction) -> None:
         " A file that cannot be read, and a displacement that cannot be computed, are"
         " reported in one line on stderr; the others are printed, and the exit code is 1.",
     )
-    add = parser.add_argument
-    add_files(parser)
-    add("--ky", nargs="+", type=ratios, required=True, help="yield accelerations [g] or ranges")
-    add("--scale-pga", type=ratio, metavar="G", help="scale each record to this PGA [g]")
-    add(
-        "--method",
-        nargs="+",
-        choices=("rigid", *_FLEXIBLE),
-        help="one or more of: rigid, a rigid block (the default); decoupled, a rigid block that the"
-        " base shear of a flexible mass drives, as if the mass did not slide; coupled, a flexible"
-        " mass that vibrates and slides at once. Each row then names its method",
-    )
-    add("--height", type=number, metavar="M", help="flexible mass: height [m]")
-    add("--vs", type=number, metavar="V", help="flexible mass: shear-wave velocity [m/s]")
-    add(
-        "--damping-ratio", type=ratio, metavar="Z", help="flexible mass: damping ratio of each mode"
-    )
-    add(
-        "--reference-strain",
-        type=ratio,
-        metavar="G",
-        help="flexible mass: equivalent-linear hyperbolic soil of this reference strain [-], which"
-        " replaces --damping-ratio",
-    )
-    add("--modes", type=whole, metavar="N", help="flexible mass: number of modes (default 1)")
-    add(
-        "--rock-vs",
-        type=number,
-        metavar="V",
-        help="flexible mass: shear-wave velocity of the rock below [m/s], for radiation damping"
-        " (default: rigid rock)",
-    )
-    add("--csv", type=Path, metavar="FILE", help="write the rows to a file, with all digits")
-    add("--json", action="store_true", help="one JSON document, SI units, exact doubles")
-    parser.set_defaults(horizontal=True, run=_newmark, plot=None)
+    add_options(parser, RECORDS, _OPTIONS)
+    parser.set_defaults(horizontal=True, run=_newmark)
 
 
 def newmark_rows(table: SweepTable) -> list[dict[str, Any]]:
@@ -133,19 +128,20 @@ def _newmark(args: argparse.Namespace) -> str:
     methods = args.method or ["rigid"]
     slopes = _slopes(args)
     levels = sorted(args.ky)
-    batch = Batch(args)
+    records = Records(args)
+    report = records.report
     files: list[Path] = []
     motions: list[GroundMotion] = []
     found: dict[tuple[int, float, str], dict[str, Any]] = {}  # by record, ky and method
-    for _, file, read in batch.motions():
-        with batch.reported(file):
+    for read in records:
+        with report.kept(read.file):
             motion = read.motion
             if args.scale_pga is not None:
                 motion = motion.scaled_to(pga_g=args.scale_pga)
-            files.append(file)
+            files.append(read.file)
             motions.append(motion)
             for (ky, method), slope in slopes.items():
-                with batch.reported(file, f"{method}, ky = {ky:g} g: "):
+                with report.kept(read.file, f"{method}, ky = {ky:g} g: "):
                     inverse, normal = (_peak(slope, each) for each in (motion, -motion))
                     found[len(files) - 1, ky, method] = _row(motion.name, ky, normal, inverse)
     if motions and "rigid" in methods:
@@ -156,13 +152,12 @@ def _newmark(args: argparse.Namespace) -> str:
         for one in table.failures:
             failed.setdefault((one.record, one.slider), one.message.partition(":")[0])
         for (k, i), message in failed.items():
-            with batch.reported(files[k], f"rigid, ky = {levels[i]:g} g: "):
+            with report.kept(files[k], f"rigid, ky = {levels[i]:g} g: "):
                 raise ValueError(message)
         places = itertools.product(range(len(files)), range(len(levels)))
         for (k, i), row in zip(places, newmark_rows(table)):
             if (k, i) not in failed:
                 found[k, levels[i], "rigid"] = row
-    said = batch.finish()
     rows: list[dict[str, Any]] = []
     for k, ky, method in itertools.product(range(len(files)), levels, methods):
         if done := found.get((k, ky, method)):
@@ -171,13 +166,11 @@ def _newmark(args: argparse.Namespace) -> str:
             if args.method:
                 done["method"] = method
             rows.append(done)
-    if args.csv:
-        method_column = ("method",) if args.method else ()
-        columns = ("file", "record", "pga_g", "ky_g", *method_column, *_DISPLACEMENTS)
-        write_csv(args.csv, columns, rows)
-    if args.json:
-        return json_text({"results": rows, "statistics": _statistics(rows), **said})
-    return "\n".join(_lines(rows))
+    method_column = ("method",) if args.method else ()
+    columns = ("file", "record", "pga_g", "ky_g", *method_column, *_DISPLACEMENTS)
+    lines = list(_lines(rows))
+    answer = report.answer(columns, rows, lines, statistics=_statistics(rows))
+    return answer if args.json else "\n".join(lines)
 
 
 def _peak(slope: FlexibleSlope, motion: GroundMotion) -> float:

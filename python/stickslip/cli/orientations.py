@@ -8,10 +8,11 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from .._text import printable
-from .batch import Batch, add_files, add_outputs
+from .options import SCALE, add_options
 from .output import column, complain
-from .parser import numbers, ratio
-from .slider import add_sliders, cells, described, heads, keyed, slider_of, variations
+from .reading import RECORDS, Records
+from .report import outputs
+from .slider import SLIDERS, cells, described, heads, keyed, slider_of, variations
 
 if TYPE_CHECKING:
     from ..sweeps import Orientations
@@ -21,6 +22,10 @@ __all__ = ["add_orientations"]
 _ABOUT = ("file", "station", "scale")
 _VALUES = ("degrees", "peak_m", "residual_m")
 _PERCENTILES = (0, 50, 100)
+_DEGREES = """
+--degrees numbers... D
+    directions (default 0:179:1; 0:359:1 where opposite directions differ)
+"""
 
 
 def add_orientations(commands: argparse._SubParsersAction) -> None:
@@ -39,18 +44,7 @@ def add_orientations(commands: argparse._SubParsersAction) -> None:
         " START:STOP:STEP; every combination is computed. A station that cannot be read or slid is"
         " reported in one line on stderr; the others are printed, and the exit code is 1.",
     )
-    add = parser.add_argument
-    add_files(parser)
-    add_sliders(parser)
-    add(
-        "--degrees",
-        nargs="+",
-        type=numbers,
-        metavar="D",
-        help="directions (default 0:179:1; 0:359:1 where opposite directions differ)",
-    )
-    add("--scale", type=ratio, default=1.0, help="factor on the ground acceleration (default 1)")
-    add_outputs(parser, each="station")
+    add_options(parser, RECORDS, SLIDERS, _DEGREES, SCALE, outputs(each="station"))
     parser.set_defaults(horizontal=True, station=True, pairs=True, run=_orientations)
 
 
@@ -62,13 +56,14 @@ def _orientations(args: argparse.Namespace) -> str:
     sliders = [(case, slider_of(case)) for case in cases]
     if args.plot and len(sliders) > 1:
         raise ValueError(f"--plot draws one slider, got {len(sliders)}")
-    batch = Batch(args)
+    records = Records(args, scaled=True)
+    report = records.report
     rows: list[dict[str, Any]] = []
     printed: list[dict[str, Any]] = []
-    for place, file, found in batch.motions():
-        motion = found.motion if args.scale == 1 else found.motion.scaled(args.scale)
+    for found in records:
+        motion = found.motion
         for case, slider in sliders:
-            with batch.reported(file):
+            with report.kept(found.file):
                 with warnings.catch_warnings(record=True) as caught:
                     warnings.simplefilter("always")
                     table = orientations(
@@ -78,9 +73,9 @@ def _orientations(args: argparse.Namespace) -> str:
                     direction, reason = table.failures[0]
                     raise ValueError(f"at {direction:g} degrees: {reason}")
                 for warning in caught:
-                    complain(f"warning: {file}: {warning.message}")
+                    complain(f"warning: {found.file}: {warning.message}")
                 about = {
-                    "file": str(file),
+                    "file": str(found.file),
                     "station": motion.name,
                     "scale": args.scale,
                     **keyed(case, shown),
@@ -92,9 +87,9 @@ def _orientations(args: argparse.Namespace) -> str:
                 if args.plot:
                     label = ", ".join(described(case, several))
                     name = printable(f"{motion.name}, {label}")
-                    batch.save(table.plot(title=name), place, found)
+                    report.save(table.plot(title=name), found)
     columns = [*_ABOUT, *keyed(args, shown), *_VALUES]
-    return batch.answer(columns, rows, _lines(printed, shown), percentiles=printed)
+    return report.answer(columns, rows, _lines(printed, shown), percentiles=printed)
 
 
 def _percentiles(table: Orientations) -> dict[str, float]:

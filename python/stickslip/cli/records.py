@@ -4,37 +4,46 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Iterable
-from pathlib import Path
+from collections.abc import Callable, Iterable
 from typing import Any
 
-from .. import STANDARD_GRAVITY, record_formats, strong_motion
+from .. import STANDARD_GRAVITY, StrongMotion, record_formats, strong_motion
 from .._text import printable
-from .batch import Batch, Motion, add_files
-from .output import column, json_text, write, write_csv
+from .options import add_options
+from .output import column, write
+from .reading import RECORDS, Motion, Records
 
 __all__ = ["add_records"]
 
-_COLUMNS = (
-    "file",
-    "record",
-    "component",
-    "orientation",
-    "dt_s",
-    "samples",
-    "duration_s",
-    "pga_g",
-    "pgv_m_s",
-    "arias_intensity_m_s",
-    "d5_95_s",
-    "units",
-    "units_from",
-    "format",
-    "units_at",
-    "dt_at",
-    "orientation_at",
-)
-
+# Of a ground motion as it was read, and its measures.
+_COLUMNS: dict[str, Callable[[Motion, StrongMotion], Any]] = {
+    "file": lambda found, _: str(found.file),
+    "record": lambda found, _: found.motion.name,
+    "component": lambda found, _: found.component,
+    "orientation": lambda found, _: found.motion.orientation,
+    "dt_s": lambda found, _: found.motion.dt,
+    "samples": lambda found, _: len(found.motion),
+    "duration_s": lambda found, _: found.motion.duration,
+    "pga_g": lambda found, _: found.motion.peak_acceleration / STANDARD_GRAVITY,
+    "pgv_m_s": lambda _, measures: measures.peak_velocity,
+    "arias_intensity_m_s": lambda _, measures: measures.arias_intensity,
+    "d5_95_s": lambda _, measures: measures.duration,
+    "units": lambda found, _: found.units or found.given,
+    "units_from": lambda found, _: "file" if found.units else "option",
+    "format": lambda found, _: found.sources[0],
+    "units_at": lambda found, _: found.sources[1],
+    "dt_at": lambda found, _: found.sources[2],
+    "orientation_at": lambda found, _: found.sources[3],
+}
+_OPTIONS = """
+--csv file FILE
+    table with units in its heading, exact doubles
+--json
+    one JSON document, exact doubles
+--why
+    also print the format of each file, and where it states unit, time step and orientation; always
+    printed for one file
+"""
 _FROM = {"file": "(in the file)", "option": "(given)"}
 
 
@@ -52,18 +61,9 @@ def add_records(commands: argparse._SubParsersAction) -> None:
         " A file that cannot be read is reported in one line on stderr; the others are"
         " printed, and the exit code is 1.",
     )
-    add = parser.add_argument
-    add("--formats", action=_Formats, help="print the known formats and exit")
-    add_files(parser)
-    add("--csv", type=Path, metavar="FILE", help="table with units in its heading, exact doubles")
-    add("--json", action="store_true", help="one JSON document, exact doubles")
-    add(
-        "--why",
-        action="store_true",
-        help="also print the format of each file, and where it states"
-        " unit, time step and orientation; always printed for one file",
-    )
-    parser.set_defaults(horizontal=False, run=_records, component="all", plot=None)
+    parser.add_argument("--formats", action=_Formats, help="print the known formats and exit")
+    add_options(parser, RECORDS, _OPTIONS)
+    parser.set_defaults(horizontal=False, run=_records, component="all")
 
 
 class _Formats(argparse.Action):
@@ -87,40 +87,15 @@ class _Formats(argparse.Action):
 
 
 def _records(args: argparse.Namespace) -> str:
-    batch = Batch(args)
+    records = Records(args)
+    report = records.report
     rows: list[dict[str, Any]] = []
-    for _, file, found in batch.motions():
-        with batch.reported(file):
-            rows.append(_row(file, found))
-    said = batch.finish()
-    if args.csv:
-        write_csv(args.csv, _COLUMNS, rows)
-    if args.json:
-        return json_text({"records": rows, "errors": said["errors"]})
-    wrote = [f"wrote {printable(str(args.csv))}"] if args.csv else []
+    for found in records:
+        with report.kept(found.file):
+            measures = strong_motion(found.motion)
+            rows.append({name: of(found, measures) for name, of in _COLUMNS.items()})
     why = ["", *_why(rows)] if args.why or len({row["file"] for row in rows}) == 1 else []
-    return "\n".join([*_table(rows), *why, *wrote])
-
-
-def _row(file: Path, found: Motion) -> dict[str, Any]:
-    motion = found.motion
-    measures = strong_motion(motion)
-    return {
-        "file": str(file),
-        "record": motion.name,
-        "component": found.component,
-        "orientation": motion.orientation,
-        "dt_s": motion.dt,
-        "samples": len(motion),
-        "duration_s": motion.duration,
-        "pga_g": motion.peak_acceleration / STANDARD_GRAVITY,
-        "pgv_m_s": measures.peak_velocity,
-        "arias_intensity_m_s": measures.arias_intensity,
-        "d5_95_s": measures.duration,
-        "units": found.units or found.given,
-        "units_from": "file" if found.units else "option",
-        **dict(zip(("format", "units_at", "dt_at", "orientation_at"), found.sources)),
-    }
+    return report.answer(_COLUMNS, rows, [*_table(rows), *why], key="records")
 
 
 def _why(rows: list[dict[str, Any]]) -> Iterable[str]:

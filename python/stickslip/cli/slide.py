@@ -6,7 +6,6 @@ import argparse
 import math
 import statistics
 from collections.abc import Iterable
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from .. import (
@@ -20,12 +19,13 @@ from .. import (
     integrate,
 )
 from .._text import printable
-from .batch import Batch, add_files, add_outputs, add_vertical
+from .options import add_options
 from .output import check_outputs, column, complain
-from .parser import group, ratios
+from .reading import RECORDS, VERTICAL, Motion, Records
+from .report import outputs
 from .slider import (
-    add_planar,
-    add_sliders,
+    PLANAR,
+    SLIDERS,
     any_slider_of,
     cells,
     check_planar,
@@ -79,6 +79,23 @@ _PLANAR_COLUMNS = (
     "impacts",
     "impact_speed_m_s",
 )
+_OPTIONS = """
+[records]
+--scale ratios = 1
+    factor on the ground acceleration (default 1)
+[records, one of]
+--polarity recorded|reversed|both
+    slide each record as recorded (the default), reversed, or both; also prints the mean of both
+    (for residuals, of their magnitudes)
+--both polarity=both
+    --polarity both
+"""
+_ANIMATE = """
+[output]
+--animate file FILE
+    picture that moves (.gif, .mp4, .html): the object sliding on its shaking floor; one record and
+    one slider
+"""
 
 
 def add_slide(commands: argparse._SubParsersAction) -> None:
@@ -102,30 +119,7 @@ def add_slide(commands: argparse._SubParsersAction) -> None:
         " for an infinite value or an option that was not given. Bad options end the command with"
         " exit code 2 before any file is read.",
     )
-    add_files(parser)
-    add_sliders(parser)
-    add_vertical(parser)
-    add_planar(parser)
-    motions = group(parser, "records")
-    motions.add_argument(
-        "--scale", type=ratios, default=1.0, help="factor on the ground acceleration (default 1)"
-    )
-    sense = motions.add_mutually_exclusive_group().add_argument
-    sense(
-        "--polarity",
-        choices=("recorded", "reversed", "both"),
-        help="slide each record as recorded (the default), reversed, or both; also prints the mean"
-        " of both (for residuals, of their magnitudes)",
-    )
-    sense("--both", action="store_const", const="both", dest="polarity", help="--polarity both")
-    add_outputs(parser)
-    group(parser, "output").add_argument(
-        "--animate",
-        type=Path,
-        metavar="FILE",
-        help="picture that moves (.gif, .mp4, .html): the object sliding on its shaking floor; one"
-        " record and one slider",
-    )
+    add_options(parser, RECORDS, SLIDERS, VERTICAL, PLANAR, _OPTIONS, outputs(), _ANIMATE)
     parser.set_defaults(horizontal=True, run=_slide)
 
 
@@ -141,23 +135,24 @@ def _slide(args: argparse.Namespace) -> str:
     if args.animate and (len(cases) > 1 or args.polarity == "both"):
         raise ValueError("--animate shows one response: give one slider and one polarity")
     sliders = [(case, any_slider_of(case)) for case in cases]
-    batch = Batch(args)
+    records = Records(args)
+    report = records.report
     if args.animate:
         from ..plotting import check_moving_suffix
 
         check_moving_suffix(args.animate)
-        check_outputs([("--animate", args.animate)], batch.inputs)
+        check_outputs([("--animate", args.animate)], report.inputs)
     rows: list[dict[str, Any]] = []
     slips, remark = False, ""
     both_ways = args.polarity == "both"
     signs = {"recorded": 1, "reversed": -1}
     polarities = signs if both_ways else {args.polarity: signs[args.polarity or "recorded"]}
-    for place, file, found in batch.motions():
+    for found in records:
         responses = {}
         for case, slider in sliders:
             label = ", ".join(described(case, several, "\u03bc"))
             who = ", ".join(described(case, several))
-            with batch.reported(file, f"{who}: "):
+            with report.kept(found.file, f"{who}: "):
                 both = []
                 for polarity, sign in polarities.items():
                     factor = sign * case.scale
@@ -166,22 +161,21 @@ def _slide(args: argparse.Namespace) -> str:
                     responses[label + (f", {polarity}" if both_ways else "")] = response
                     slips = slips or response.time_sliding > 0
                     remark = remark or ("" if slips else response.remark)
-                    both.append(_row(case, file, found.component, slider, response, polarity))
+                    both.append(_row(case, found, slider, response, polarity))
                 rows += [*both, *([_mean(both)] if both_ways else [])]
         if args.animate and responses:
-            if str(args.animate) in batch.figures:
+            if str(args.animate) in report.figures:
                 raise ValueError("--animate shows one response, got several records")
-            with batch.reported(file):
-                batch.figures.append(
-                    str(next(iter(responses.values())).animate().write(args.animate))
-                )
+            with report.kept(found.file):
+                first = next(iter(responses.values()))
+                report.figures.append(str(first.animate().write(args.animate)))
         if args.plot and responses:
-            with batch.reported(file):
-                batch.save(_figure(responses), place, found)
+            with report.kept(found.file):
+                report.save(_figure(responses), found)
     if args.units and remark and not slips:
         complain("warning: " + remark.replace('units="g"', "--units g"))
     columns = (*_COLUMNS, *(_PLANAR_COLUMNS if args.planar else ()))
-    return batch.answer(columns, rows, _table(rows, several))
+    return report.answer(columns, rows, _table(rows, several))
 
 
 def _figure(responses: dict[str, Response | PlanarResponse]) -> Figure:
@@ -205,8 +199,7 @@ def _settle(
 
 def _row(
     args: argparse.Namespace,
-    file: Path,
-    component: int | None,
+    found: Motion,
     slider: Slider | PlanarSlider,
     response: Response | PlanarResponse,
     polarity: str | None,
@@ -218,9 +211,9 @@ def _row(
     else:
         forward, backward = (slider.resist(backward=back) for back in (False, True))
     return {
-        "file": str(file),
+        "file": str(found.file),
         "record": response.motion.name,
-        "component": component,
+        "component": found.component,
         "scale": args.scale,
         "pga_g": _pga(response) / STANDARD_GRAVITY,
         "law": args.law,

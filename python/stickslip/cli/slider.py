@@ -22,13 +22,11 @@ from .. import (
 )
 from .._core import _check_unit
 from .output import check_not_negative
-from .parser import StoreAll, group, number, numbers, ratio, ratios
 
 __all__ = [
-    "add_contact",
-    "add_planar",
-    "add_slider",
-    "add_sliders",
+    "PLANAR",
+    "SLIDER",
+    "SLIDERS",
     "any_slider_of",
     "cells",
     "check_planar",
@@ -73,106 +71,60 @@ _PENDULUMS: dict[int, Callable[..., MultiPendulum]] = {
 }
 
 
-def add_sliders(parser: argparse.ArgumentParser) -> None:
-    """Add the options that `variations` reads, except --scale, and --contact."""
-    add = group(parser, "friction").add_argument
-    add(
-        "--mu",
-        nargs="+",
-        action=StoreAll,
-        type=ratios,
-        required=True,
-        help="coefficients of friction [-] or ranges; a repeated value is used once",
-    )
-    add_slider(parser, ranges=True)
-    add(
-        "--radii",
-        nargs="+",
-        action=StoreAll,
-        type=number,
-        metavar="M",
-        help="pendulum: effective radii of a double bearing (lower, upper), a triple one (inner,"
-        " lower outer, upper outer) or a quintuple one (inner, middle, outer) [m]; --mu then has"
-        " one coefficient for each",
-    )
-    add(
-        "--capacities",
-        nargs="+",
-        action=StoreAll,
-        type=number,
-        metavar="M",
-        help="pendulum: travel of each surface to its stop [m]; default: none",
-    )
-    add_contact(parser)
-
-
-def add_slider(parser: argparse.ArgumentParser, ranges: bool = False) -> None:
-    """Add the options that `slider_of` reads, except --mu.
-
-    Parameters
-    ----------
-    parser : argparse.ArgumentParser
-    ranges : bool, optional
-        Whether the options accept ranges START:STOP:STEP.
-    """
-    length: Callable[[str], Any] = numbers if ranges else number
-    part: Callable[[str], Any] = ratios if ranges else ratio
-    add = group(parser, "friction").add_argument
-    laws = ("coulomb", "caster", "one-way", *(("pendulum",) if ranges else ()))
-    add("--law", choices=laws, default="coulomb", help="friction law")
-    add(
-        "--mu-static",
-        type=part,
-        metavar="MU",
-        help="coefficient of static friction [-], at least --mu, which is then the kinetic one",
-    )
-    add("--reach", type=length, metavar="M", help="caster: distance over which the level falls [m]")
-    add(
-        "--trail",
-        type=number,
-        metavar="M",
-        help="caster: pivot to wheel axis [m]; with --wheel-width, instead of --reach",
-    )
-    add(
-        "--wheel-width", type=number, metavar="M", help="caster: width of a wheel [m]; with --trail"
-    )
-    add = group(parser, "mounting and ground").add_argument
-    add("--period", type=length, metavar="S", help="period of the mass on its spring [s]")
-    add("--damping-ratio", type=part, metavar="Z", help="damping ratio; with --period")
-    add("--slope", type=length, metavar="DEGREES", help="slope of the ground; downhill is forward")
-    add(
-        "--stop-gap",
-        type=length,
-        metavar="M",
-        help="distance from the start to a stop, both ways [m]",
-    )
-    add(
-        "--restitution",
-        type=part,
-        metavar="E",
-        help="speed after an impact on a stop over that before, from 0 to 1; with --stop-gap",
-    )
-
-
-def add_contact(parser: argparse.ArgumentParser) -> None:
-    """Add --contact."""
-    group(parser, "mounting and ground").add_argument(
-        "--contact",
-        choices=("flight", "clipped"),
-        default="flight",
-        help="where the ground falls faster than the block: it flies and lands (the default), or"
-        " stays on the ground without friction",
-    )
-
-
-def add_planar(parser: argparse.ArgumentParser) -> None:
-    """Add --planar."""
-    group(parser, "mounting and ground").add_argument(
-        "--planar",
-        action="store_true",
-        help="slide in both horizontal directions at once: friction opposes the velocity vector;"
-        " implies --station, and prints the largest and the last distance from the start",
-    )
+CONTACT = """
+[mounting and ground]
+--contact flight|clipped = flight
+    where the ground falls faster than the block: it flies and lands (the default), or stays on the
+    ground without friction
+"""
+PLANAR = """
+[mounting and ground]
+--planar
+    slide in both horizontal directions at once: friction opposes the velocity vector; implies
+    --station, and prints the largest and the last distance from the start
+"""
+_SLIDER = """
+[friction]
+--law {laws} = coulomb
+    friction law
+--mu-static {ratio} MU
+    coefficient of static friction [-], at least --mu, which is then the kinetic one
+--reach {number} M
+    caster: distance over which the level falls [m]
+--trail number M
+    caster: pivot to wheel axis [m]; with --wheel-width, instead of --reach
+--wheel-width number M
+    caster: width of a wheel [m]; with --trail
+[mounting and ground]
+--period {number} S
+    period of the mass on its spring [s]
+--damping-ratio {ratio} Z
+    damping ratio; with --period
+--slope {number} DEGREES
+    slope of the ground; downhill is forward
+--stop-gap {number} M
+    distance from the start to a stop, both ways [m]
+--restitution {ratio} E
+    speed after an impact on a stop over that before, from 0 to 1; with --stop-gap
+"""
+_LAWS = "coulomb|caster|one-way"
+# What `slider_of` reads, except --mu.
+SLIDER = _SLIDER.format(laws=_LAWS, number="number", ratio="ratio") + CONTACT
+# What `variations` reads, except --scale.
+SLIDERS = f"""
+[friction]
+--mu ratios*... required
+    coefficients of friction [-] or ranges; a repeated value is used once
+{_SLIDER.format(laws=f"{_LAWS}|pendulum", number="numbers", ratio="ratios").strip()}
+[friction]
+--radii number*... M
+    pendulum: effective radii of a double bearing (lower, upper), a triple one (inner, lower outer,
+    upper outer) or a quintuple one (inner, middle, outer) [m]; --mu then has one coefficient for
+    each
+--capacities number*... M
+    pendulum: travel of each surface to its stop [m]; default: none
+{CONTACT.strip()}
+"""
 
 
 def check_planar(args: argparse.Namespace) -> None:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterable, Iterator
-from pathlib import Path
 from typing import Any
 
 from .. import STANDARD_GRAVITY, ResponseSpectrum, response_spectrum
 from .._text import printable
-from .batch import Batch, Motion, add_files, add_outputs
+from .options import SCALE, add_options
 from .output import column
-from .parser import numbers, ratio, ratios
+from .reading import RECORDS, Motion, Records
+from .report import outputs
 
 __all__ = ["add_spectrum"]
 
@@ -25,6 +25,14 @@ _KINDS = {
 }
 _PRINTED = [0.0, 0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 3.0]  # periods [s]
 _DRAWN = [10 ** (k / 33 - 2) for k in range(100)]  # 100 from 0.01 to 10 s
+_OPTIONS = f"""
+--periods numbers... T
+    undamped natural periods [s], 0 or from 1e-6 to 1e6, such as 0.1:4:0.1
+--damping ratios... Z = 0.05
+    ratios of critical damping, at least 0 and below 2 (default 0.05)
+--kind {"|".join(_KINDS)} = pseudo_acceleration
+    spectral quantity (default pseudo_acceleration)
+"""
 
 
 def add_spectrum(commands: argparse._SubParsersAction) -> None:
@@ -40,31 +48,7 @@ def add_spectrum(commands: argparse._SubParsersAction) -> None:
         " that cannot be read is reported in one line on stderr; the others are printed, and the"
         " exit code is 1.",
     )
-    add = parser.add_argument
-    add_files(parser)
-    add(
-        "--periods",
-        nargs="+",
-        type=numbers,
-        metavar="T",
-        help="undamped natural periods [s], 0 or from 1e-6 to 1e6, such as 0.1:4:0.1",
-    )
-    add(
-        "--damping",
-        nargs="+",
-        type=ratios,
-        default=[0.05],
-        metavar="Z",
-        help="ratios of critical damping, at least 0 and below 2 (default 0.05)",
-    )
-    add(
-        "--kind",
-        choices=tuple(_KINDS),
-        default="pseudo_acceleration",
-        help="spectral quantity (default pseudo_acceleration)",
-    )
-    add("--scale", type=ratio, default=1.0, help="factor on the ground acceleration (default 1)")
-    add_outputs(parser)
+    add_options(parser, RECORDS, _OPTIONS, SCALE, outputs())
     parser.set_defaults(horizontal=False, run=_spectrum)
 
 
@@ -75,36 +59,37 @@ def _spectrum(args: argparse.Namespace) -> str:
     for period in args.periods or []:
         if not (period == 0 or 1e-6 <= period <= 1e6):
             raise ValueError(f"--periods must be 0 or from 1e-6 to 1e6 s, got {period:g} s")
-    batch = Batch(args)
+    records = Records(args, scaled=True)
+    report = records.report
     printed: list[dict[str, Any]] = []
     rows: list[dict[str, Any]] = []
     in_files = args.csv or args.json or args.plot
-    for place, file, found in batch.motions():
-        with batch.reported(file):
-            motion = found.motion if args.scale == 1 else found.motion.scaled(args.scale)
+    for found in records:
+        with report.kept(found.file):
+            motion = found.motion
             few = response_spectrum(motion, args.periods or _PRINTED, args.damping, kind=args.kind)
-            printed += _rows(args, file, found, few)
+            printed += _rows(args, found, few)
             if not in_files:
                 continue
             many = few
             if not args.periods:
                 many = response_spectrum(motion, _DRAWN, args.damping, kind=args.kind)
-            rows += _rows(args, file, found, many)
+            rows += _rows(args, found, many)
             if args.plot:
-                batch.save(many.plot(title=printable(motion.name)), place, found)
+                report.save(many.plot(title=printable(motion.name)), found)
     names = ("file", "record", "component", "scale", "damping_ratio", "period_s")
-    return batch.answer((*names, _KINDS[args.kind][2]), rows, _table(args, printed))
+    return report.answer((*names, _KINDS[args.kind][2]), rows, _table(args, printed))
 
 
 def _rows(
-    args: argparse.Namespace, file: Path, found: Motion, spectrum: ResponseSpectrum
+    args: argparse.Namespace, found: Motion, spectrum: ResponseSpectrum
 ) -> Iterator[dict[str, Any]]:
     key = _KINDS[args.kind][2]
     values = spectrum.values.reshape(len(args.damping), -1).tolist()
     for zeta, row in zip(args.damping, values):
         for period, value in zip(spectrum.periods.tolist(), row):
             yield {
-                "file": str(file),
+                "file": str(found.file),
                 "record": found.motion.name,
                 "component": found.component,
                 "scale": args.scale,

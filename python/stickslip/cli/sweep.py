@@ -9,13 +9,13 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .. import GroundMotion
-from .batch import Batch, add_files, add_outputs, add_vertical
+from .options import SCALE, add_options
 from .output import column, complain
-from .parser import ratio
+from .reading import RECORDS, VERTICAL, Records
+from .report import outputs
 from .slider import (
-    add_planar,
-    add_sliders,
+    PLANAR,
+    SLIDERS,
     any_slider_of,
     cells,
     check_planar,
@@ -39,6 +39,10 @@ _STATISTICS = (
     ("largest", "largest", 1.0),
 )
 _QUANTITIES = ("peak", "residual")
+_POLARITY = """
+--polarity recorded|reversed|both
+    slide each record as recorded, reversed, or both (the default; as recorded with --planar)
+"""
 
 
 def add_sweep(commands: argparse._SubParsersAction) -> None:
@@ -57,19 +61,8 @@ def add_sweep(commands: argparse._SubParsersAction) -> None:
         " stderr; the statistics are those of the others, and the exit code is 1. CSV and JSON"
         " have every response; in JSON the statistics are listed besides.",
     )
-    add = parser.add_argument
-    add_files(parser)
-    add_sliders(parser)
-    add_vertical(parser)
-    add_planar(parser)
-    add("--scale", type=ratio, default=1.0, help="factor on the ground acceleration (default 1)")
-    add(
-        "--polarity",
-        choices=("recorded", "reversed", "both"),
-        help="slide each record as recorded, reversed, or both (the default; as recorded with"
-        " --planar)",
-    )
-    add_outputs(parser, each="")
+    tables = (RECORDS, SLIDERS, VERTICAL, PLANAR, SCALE, _POLARITY, outputs(each=""))
+    add_options(parser, *tables)
     parser.set_defaults(horizontal=True, one_picture=True, run=_sweep)
 
 
@@ -83,19 +76,16 @@ def _sweep(args: argparse.Namespace) -> str:
         check_planar(args)
     parameters = {name: [getattr(case, name) for case in cases] for name in shown}
     sliders = Grid([any_slider_of(case) for case in cases], parameters)
-    batch = Batch(args)
-    files: list[Path] = []
-    motions: list[GroundMotion] = []
-    for _, file, found in batch.motions():
-        files.append(file)
-        motions.append(found.motion if args.scale == 1 else found.motion.scaled(args.scale))
-    if not motions:
-        return batch.answer((), [], (), statistics=[])
+    records = Records(args, scaled=True)
+    report = records.report
+    found = list(records)
+    if not found:
+        return report.answer((), [], (), statistics=[])
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", "sweep: .* combinations failed")  # reported below
         table = sweep(
             sliders,
-            motions,
+            [one.motion for one in found],
             polarity=args.polarity or ("recorded" if args.planar else "both"),
             settle=True,
             contact=args.contact,
@@ -105,16 +95,15 @@ def _sweep(args: argparse.Namespace) -> str:
     for place, slider, message in dict.fromkeys(
         (one.record, one.slider, one.message.partition(":")[0]) for one in table.failures
     ):
-        with batch.reported(files[place]):
+        with report.kept(found[place].file):
             raise ValueError(f"{', '.join(described(cases[slider], several))}: {message}")
-    rows = _rows(cases, files, table, shown)
+    rows = _rows(cases, [one.file for one in found], table, shown)
     statistics = _statistics(cases, table, shown)
     if args.plot:
-        with batch.reported(args.plot):
-            batch.save(table.plot())
+        with report.kept(args.plot):
+            report.save(table.plot())
     columns = dict.fromkeys(name for row in rows for name in row)
-    lines = _lines(args, statistics, shown)
-    return batch.answer(tuple(columns), rows, lines, statistics=statistics)
+    return report.answer(columns, rows, _lines(statistics, shown), statistics=statistics)
 
 
 def _rows(
@@ -162,9 +151,7 @@ def _statistics(
     return [row for row in rows if row["responses"]]
 
 
-def _lines(
-    args: argparse.Namespace, statistics: list[dict[str, Any]], shown: list[str]
-) -> Iterable[str]:
+def _lines(statistics: list[dict[str, Any]], shown: list[str]) -> Iterable[str]:
     if not statistics:
         return
     options = heads(shown)

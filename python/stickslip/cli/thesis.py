@@ -10,10 +10,25 @@ from typing import Any
 
 from .._files import replacing
 from .._text import printable
+from .options import add_options
 from .output import check_whole
-from .parser import whole
 
 __all__ = ["add_thesis"]
+
+_OPTIONS = """
+--members whole N
+    number of members of each ensemble (default 100000; --check: 2000)
+--seed whole N
+    random seed (default 1; --check: 2)
+--threads whole N
+    maximum number of threads (default: all cores)
+--out file FOLDER
+    folder for the files (default: thesis; --check: none)
+--format png|pdf|svg = png
+    format of the pictures (default png)
+--check
+    quick check against expected values
+"""
 
 
 def add_thesis(commands: argparse._SubParsersAction) -> None:
@@ -27,29 +42,10 @@ def add_thesis(commands: argparse._SubParsersAction) -> None:
         " results. With --check, prints every number with its expected value and its tolerance,"
         " exits with code 1 if one is wrong, and writes nothing unless --out is given.",
     )
-    add = parser.add_argument
-    add("numbers", nargs="*", metavar="NUMBER", help="such as 4.6, A.2, 'Table 5.1' (default: all)")
-    add(
-        "--members",
-        type=whole,
-        metavar="N",
-        help="number of members of each ensemble (default 100000; --check: 2000)",
+    parser.add_argument(
+        "numbers", nargs="*", metavar="NUMBER", help="such as 4.6, A.2, 'Table 5.1' (default: all)"
     )
-    add("--seed", type=whole, metavar="N", help="random seed (default 1; --check: 2)")
-    add("--threads", type=whole, metavar="N", help="maximum number of threads (default: all cores)")
-    add(
-        "--out",
-        type=Path,
-        metavar="FOLDER",
-        help="folder for the files (default: thesis; --check: none)",
-    )
-    add(
-        "--format",
-        choices=("png", "pdf", "svg"),
-        default="png",
-        help="format of the pictures (default png)",
-    )
-    add("--check", action="store_true", help="quick check against expected values")
+    add_options(parser, _OPTIONS)
     parser.set_defaults(run=_thesis)
 
 

@@ -11,14 +11,21 @@ Arguments have the names and units of the papers, here alone: `ky`, `pga`, `Sa` 
 that of ln D.
 """
 
-from .ambraseys_menu import AmbraseysMenu1988
-from .bray import BrayMacedo2019, BrayMacedoTravasarou2018, BrayTravasarou2007
-from .fotopoulou_pitilakis import FotopoulouPitilakis2015
-from .jibson import Jibson2007, JibsonEtAl2000
 from .model import RangeWarning, Regression
+from .models import (
+    AmbraseysMenu1988,
+    BrayMacedo2019,
+    BrayMacedoTravasarou2018,
+    BrayTravasarou2007,
+    FotopoulouPitilakis2015,
+    Jibson2007,
+    JibsonEtAl2000,
+    RathjeAntonakos2011,
+    RathjeSaygili2009,
+    SaygiliRathje2008,
+    YegianEtAl1991,
+)
 from .prediction import Prediction
-from .rathje import RathjeAntonakos2011, RathjeSaygili2009, SaygiliRathje2008
-from .yegian import YegianEtAl1991
 
 __all__ = [
     "AmbraseysMenu1988",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, SupportsIndex, overload
 
 import numpy as np
@@ -10,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .._core import Coulomb, GroundMotion
 from .._tables import Columns
-from .._tabular import Tabular
+from .._tabular import Tabular, over
 from ..motions.intensity import LEVEL_UNITS, level_of
 from ..motions.suite import Suite
 from ..runs.progress import Progress
@@ -28,6 +29,7 @@ Directions = Literal["axis", "rotd50", "rotd100"]
 _STEP = 10  # degrees between the directions of a pair
 
 
+@dataclass(kw_only=True, eq=False, repr=False)
 class DesignChart(Tabular):
     """Percentiles of displacements over records, as `design_chart` returns them.
 
@@ -49,29 +51,22 @@ class DesignChart(Tabular):
         over all directions of the pair.
     """
 
-    def __init__(
-        self,
-        *,
-        mu: Array,
-        measure: str,
-        levels: Array,
-        percentiles: Array,
-        peak: Array,
-        residual: Array,
-        directions: str,
-    ) -> None:
-        self.mu, self.measure, self.levels, self.percentiles = mu, measure, levels, percentiles
-        self.peak, self.residual, self.directions = peak, residual, directions
+    mu: Array
+    measure: str
+    levels: Array
+    percentiles: Array
+    peak: Array
+    residual: Array
+    directions: str
 
     def _table(self) -> tuple[Columns, Mapping[str, str]]:
-        p, level, mu = (index.ravel() for index in np.indices(self.peak.shape))
-        columns = {
-            "percentile": self.percentiles[p],
-            self.measure: self.levels[level],
-            "mu": self.mu[mu],
-            "peak": self.peak.ravel(),
-            "residual": self.residual.ravel(),
-        }
+        columns = over(
+            {"percentile": self.percentiles},
+            {self.measure: self.levels},
+            {"mu": self.mu},
+            peak=self.peak,
+            residual=self.residual,
+        )
         units = {"percentile": "%", self.measure: LEVEL_UNITS[self.measure]}
         return columns, {**units, "peak": "m", "residual": "m"}
 

@@ -9,6 +9,7 @@ import os
 import re
 import warnings
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
@@ -161,6 +162,7 @@ class Hazard(Tabular):
         )
 
 
+@dataclass(eq=False, repr=False)
 class Exceedances(Tabular):
     """Annual rates at which thresholds are exceeded; see `Fragility.rate_of_exceedance`.
 
@@ -178,11 +180,11 @@ class Exceedances(Tabular):
         motions.
     """
 
-    def __init__(
-        self, fragility: Fragility, hazard: Hazard, rate: Array, beyond: Array, extrapolated: Array
-    ) -> None:
-        self.fragility, self.hazard = fragility, hazard
-        self.rate, self.beyond, self.extrapolated = rate, beyond, extrapolated
+    fragility: Fragility
+    hazard: Hazard
+    rate: Array
+    beyond: Array
+    extrapolated: Array
 
     def probability(self, years: float) -> NDArray[np.float64]:
         """The probability of at least one exceedance in a time, 1 - exp(-rate years).

@@ -52,6 +52,7 @@ class OrientationPercentile:
     residual_degrees: float
 
 
+@dataclass(kw_only=True, eq=False, repr=False)
 class Orientations(Tabular):
     """Responses of a slider along each of several directions, as `orientations` returns them.
 
@@ -82,27 +83,20 @@ class Orientations(Tabular):
         Direction and message of those that failed; they are NaN in the arrays.
     """
 
-    def __init__(
-        self,
-        *,
-        slider: str,
-        station: str,
-        degrees: NDArray[np.float64],
-        from_north: bool,
-        angle: NDArray[np.float64],
-        peak: NDArray[np.float64],
-        residual: NDArray[np.float64],
-        mirrored: bool,
-        settle: bool,
-        contact: str,
-        failures: tuple[tuple[float, str], ...],
-    ) -> None:
-        self.slider, self.station = slider, station
-        self.degrees, self.from_north, self.angle = degrees, from_north, angle
-        self.peak, self.residual = peak, residual
-        self.mirrored, self.settle, self.contact = mirrored, settle, contact
-        self.failures = failures
-        for array in (degrees, angle, peak, residual):
+    slider: str
+    station: str
+    degrees: NDArray[np.float64]
+    from_north: bool
+    angle: NDArray[np.float64]
+    peak: NDArray[np.float64]
+    residual: NDArray[np.float64]
+    mirrored: bool
+    settle: bool
+    contact: str
+    failures: tuple[tuple[float, str], ...]
+
+    def __post_init__(self) -> None:
+        for array in (self.degrees, self.angle, self.peak, self.residual):
             array.setflags(write=False)
 
     def percentile(self, nn: float) -> OrientationPercentile:

@@ -14,8 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 from .._core import STANDARD_GRAVITY, Coulomb, GroundMotion
 from .._hdf5 import Saved, as_column, read, write
 from .._optional import optional
-from .._tables import Columns, Repeated, json_text
-from .._tabular import Tabular, same
+from .._tables import Columns, json_text
+from .._tabular import Tabular, over, same
 from .parameter_grid import AnySwept
 
 if TYPE_CHECKING:
@@ -64,6 +64,32 @@ class SweepFailure(NamedTuple):
     record: int
     polarity: str
     message: str
+
+
+class _Known:
+    """A quantity of sliders in the plane, or of those that have stops."""
+
+    def __set_name__(self, owner: type[SweepTable], name: str) -> None:
+        self._name = name
+
+    def __get__(self, table: SweepTable | None, owner: type[SweepTable]) -> Any:
+        if table is None:
+            return self
+        name, known = self._name, table._components | (table._impacts or {})
+        if name in known:
+            return known[name]
+        if name in COMPONENTS:
+            raise ValueError(
+                f"SweepTable: {name} is known of sliders in the plane; these move on one axis: see"
+                " residual"
+            )
+        if table._impacts is None:
+            raise ValueError("SweepTable: no slider has stops")
+        where = "in the plane" if table.planar else "on one axis"
+        raise ValueError(
+            f"SweepTable: {name} is not known of sliders {where}; see"
+            f" {' and '.join(table._impacts)}"
+        )
 
 
 class SweepTable(Tabular, Saved):
@@ -219,6 +245,16 @@ class SweepTable(Tabular, Saved):
             impacts=dict.fromkeys(IMPACTS | PLANAR_IMPACTS, np.zeros(shape)) if has_stops else None,
         )
 
+    @classmethod
+    def _of(cls, arrays: Mapping[str, Any], **about: Any) -> SweepTable:
+        """The table of arrays as `arrays` returns them."""
+        return cls(
+            **about,
+            **{name: arrays[name] for name in (*QUANTITIES, "airborne")},
+            components=arrays if "residual_axis" in arrays else None,
+            impacts=arrays if {"impacts_forward", "impacts"} & arrays.keys() else None,
+        )
+
     def arrays(self, columns: bool = False) -> dict[str, NDArray[Any]]:
         """The arrays over slider, record and polarity; in columns `airborne` only if one is."""
         arrays = {name: getattr(self, name) for name in QUANTITIES}
@@ -242,56 +278,14 @@ class SweepTable(Tabular, Saved):
         """Whether the sliders move in the plane."""
         return bool(self._components)
 
-    def _component(self, name: str) -> NDArray[np.float64]:
-        if not self.planar:
-            raise ValueError(
-                f"SweepTable: {name} is known of sliders in the plane; these move on one axis: see"
-                " residual"
-            )
-        return self._components[name]
-
-    @property
-    def residual_axis(self) -> NDArray[np.float64]:
-        return self._component("residual_axis")
-
-    @property
-    def residual_transverse(self) -> NDArray[np.float64]:
-        return self._component("residual_transverse")
-
-    def _impact(self, name: str) -> NDArray[Any]:
-        if self._impacts is not None:
-            if name not in self._impacts:
-                raise ValueError(
-                    f"SweepTable: {name} is not known of sliders"
-                    f" {'in the plane' if self.planar else 'on one axis'}; see"
-                    f" {' and '.join(self._impacts)}"
-                )
-            return self._impacts[name]
-        raise ValueError("SweepTable: no slider has stops")
-
-    @property
-    def impacts_forward(self) -> NDArray[np.int64]:
-        return self._impact("impacts_forward")
-
-    @property
-    def impacts_backward(self) -> NDArray[np.int64]:
-        return self._impact("impacts_backward")
-
-    @property
-    def impact_speed_forward(self) -> NDArray[np.float64]:
-        return self._impact("impact_speed_forward")
-
-    @property
-    def impact_speed_backward(self) -> NDArray[np.float64]:
-        return self._impact("impact_speed_backward")
-
-    @property
-    def impacts(self) -> NDArray[np.int64]:
-        return self._impact("impacts")
-
-    @property
-    def impact_speed(self) -> NDArray[np.float64]:
-        return self._impact("impact_speed")
+    residual_axis = _Known()
+    residual_transverse = _Known()
+    impacts_forward = _Known()
+    impacts_backward = _Known()
+    impact_speed_forward = _Known()
+    impact_speed_backward = _Known()
+    impacts = _Known()
+    impact_speed = _Known()
 
     @property
     def impact_fraction(self) -> NDArray[np.float64]:
@@ -388,20 +382,18 @@ class SweepTable(Tabular, Saved):
         return found[0], found[1]
 
     def _table(self) -> tuple[Columns, Mapping[str, str]]:
-        s, r, p = (index.ravel() for index in np.indices(self.peak.shape))
-        columns: dict[str, NDArray[Any] | Repeated] = {
-            "slider": Repeated(np.array(self.sliders), s)
-        }
         parameters, metadata = self._beside()
-        columns |= {name: Repeated(column, s) for name, column in parameters.items()}
-        columns["record"] = Repeated(np.array(self.records), r)
-        columns |= {
-            name: Repeated(column, r)
-            for name, column in metadata.items()
-            if column.tolist() != list(self.records)  # as of stripes, whose names are `record`
-        }
-        columns["polarity"] = Repeated(np.array(self.polarity), p)
-        return columns | {name: a.ravel() for name, a in self.arrays(True).items()}, UNITS
+        records = list(self.records)  # as of stripes, metadata may repeat them
+        columns = over(
+            {"slider": self.sliders, **parameters},
+            {
+                "record": self.records,
+                **{n: c for n, c in metadata.items() if c.tolist() != records},
+            },
+            {"polarity": self.polarity},
+            **self.arrays(columns=True),
+        )
+        return columns, UNITS
 
     def to_json(self) -> str:
         """The table as one JSON document, for tools on the web.
@@ -469,19 +461,14 @@ class SweepTable(Tabular, Saved):
                 f" {found!r}"
             )
         try:
-            return cls(
+            return cls._of(
+                document,  # in which float makes NaN of null
                 **{name: document[name] for name in ("sliders", "records", "polarity")},
                 **{
                     name: {key: _unlisted(values) for key, values in document[name].items()}
                     for name in ("parameters", "metadata")
                 },
-                **{name: document[name] for name in QUANTITIES},  # float makes NaN of null
-                airborne=document["airborne"],
-                components=document if "residual_axis" in document else None,
-                impacts=document if {"impacts_forward", "impacts"} & document.keys() else None,
-                settle=document["settle"],
-                contact=document["contact"],
-                remark=document.get("remark", ""),
+                **{name: document[name] for name in ("settle", "contact", "remark")},
                 failures=[
                     SweepFailure(*(one[name] for name in SweepFailure._fields))
                     for one in document["failures"]
@@ -584,7 +571,7 @@ class SweepTable(Tabular, Saved):
         about: dict[str, Any] = {
             "settle": bool(h5.attrs["settle"]),
             "contact": h5.attrs["contact"],
-            "remark": h5.attrs.get("remark", ""),
+            "remark": h5.attrs["remark"],
             "failures": json.loads(h5.attrs["failures"]),
         }
         axes = {name: read(h5, axis) for axis, name in _AXES.items()}
@@ -595,21 +582,8 @@ class SweepTable(Tabular, Saved):
                 kind = h5[key].attrs["kind"]
                 length = shape[0 if kind == "parameters" else 1]
                 columns[kind][h5[key].attrs["name"]] = read(h5, key, (length,))
-        components = {name: read(h5, name, shape) for name in COMPONENTS if "residual_axis" in h5}
-        impacts = {
-            name: read(h5, name, shape)
-            for group, first in ((IMPACTS, "impacts_forward"), (PLANAR_IMPACTS, "impacts"))
-            for name in group
-            if first in h5
-        }
-        return cls(
-            **axes,
-            **columns,
-            **{name: read(h5, name, shape) for name in (*QUANTITIES, "airborne")},
-            components=components or None,
-            impacts=impacts or None,
-            **about,
-        )
+        arrays = {name: read(h5, name, shape) for name in _ALL if name in h5}
+        return cls._of(arrays, **axes, **columns, **about)
 
     @overload
     def plot(

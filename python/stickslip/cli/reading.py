@@ -1,4 +1,4 @@
-"""Batches of files: expand their names, read their motions, report failures."""
+"""The records of a command line: expand their names, read their motions."""
 
 from __future__ import annotations
 
@@ -6,16 +6,14 @@ import argparse
 import contextlib
 import math
 import warnings
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from .. import GroundMotion, PlausibilityWarning
 from .._core import _ground_motion as ground_motion
 from .._core import _warn_if_implausible as warn_if_implausible
-from .._failures import grouped, with_options
 from .._paths import expanded, is_same_file
-from .._text import printable
 from ..motions.metadata import Metadata, orientation_text, readings
 from ..motions.records import (
     Component,
@@ -29,114 +27,55 @@ from ..motions.records import (
 )
 from ..motions.samples import sample_files, sample_record
 from ..motions.stations import Part, stations_of
-from .output import FAILURES, check_outputs, complain, json_text, reason_of, write_csv
-from .parser import group, text_argument
+from .output import FAILURES, complain, reason_of
+from .report import Report
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-__all__ = ["Batch", "StrictError", "add_files", "add_outputs", "add_vertical"]
+__all__ = ["RECORDS", "VERTICAL", "Motion", "Records"]
 
 _SAMPLE = "sample:"  # before the name of a sample record, in place of a file
 
-
-def add_files(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments that `Batch` reads."""
-    add = group(parser, "records").add_argument
-    add(
-        "records",
-        nargs="+",
-        type=Path,
-        metavar="RECORD",
-        help="file (AT2, COSMOS, GeoNet, K-NET, CSV and others); folder (all files in it); pattern"
-        " such as 'quakes/*.AT2'; sample:Kobe, a sample record; or sample:all",
-    )
-    add(
-        "--units",
-        type=text_argument,
-        metavar="UNIT",
-        help="unit of acceleration of files that state none: g, gal, ...; or column of --metadata",
-    )
-    add(
-        "--component",
-        type=text_argument,
-        metavar="NAME",
-        help="name or number (from 1) in files with several components; all; or vertical",
-    )
-    add(
-        "--dt",
-        type=text_argument,
-        metavar="S",
-        help="time step [s] of files that state none (one column); or a column of --metadata",
-    )
-    add(
-        "--orientation",
-        action="extend",  # several records may have the same
-        nargs="+",
-        type=text_argument,
-        metavar="DIR",
-        help="direction of files that do not state it: an azimuth [degrees], N28W, up, ...; one for"
-        " each record; or a column of --metadata",
-    )
-    add(
-        "--metadata",
-        type=Path,
-        metavar="FILE",
-        help="CSV file with a row for each record, identified by a column file, record or name; its"
-        " columns units, dt (or dt_s) and orientation apply",
-    )
-    add(
-        "--detrend",
-        nargs="?",
-        choices=("mean", "line"),
-        const="mean",
-        metavar="WHAT",
-        help="remove the mean of each acceleration, or the straight line that fits it best: mean"
-        " (default) or line; for records without a corrected baseline, as of K-NET",
-    )
-    add("--gaps", action="store_true", help="accept time steps over ten times the median")
-    add(
-        "--strict",
-        action="store_true",
-        help="stop at the first failure, with exit code 2 and nothing on stdout; pictures written"
-        " before it remain",
-    )
-
-
-def add_vertical(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments that let the vertical motion act, which `Batch` reads too."""
-    add = group(parser, "records").add_mutually_exclusive_group().add_argument
-    add(
-        "--station",
-        action="store_true",
-        help="group the components of each station, from one file or several: the vertical one acts"
-        " too, and --component is a horizontal component or an azimuth [degrees] (default: the"
-        " first horizontal component)",
-    )
-    add(
-        "--vertical",
-        type=Path,
-        metavar="FILE",
-        help="vertical component of the record, from another file with the same samples",
-    )
-
-
-def add_outputs(parser: argparse.ArgumentParser, each: str = "record") -> None:
-    """Add --plot, --csv and --json; `each` says of what there is a picture, if not of all."""
-    add = group(parser, "output").add_argument
-    several = f", one for each {each}" if each else ""
-    add("--plot", type=Path, metavar="FILE", help=f"picture (.png, .pdf, .svg){several}")
-    add("--csv", type=Path, metavar="FILE", help="table with units in its heading, exact doubles")
-    add("--json", action="store_true", help="one JSON document, SI units, exact doubles")
-
-
-class StrictError(Exception):
-    """The first failure of a batch under --strict."""
+RECORDS = """
+[records]
+records file... RECORD
+    file (AT2, COSMOS, GeoNet, K-NET, CSV and others); folder (all files in it); pattern such as
+    'quakes/*.AT2'; sample:Kobe, a sample record; or sample:all
+--units text UNIT
+    unit of acceleration of files that state none: g, gal, ...; or column of --metadata
+--component text NAME
+    name or number (from 1) in files with several components; all; or vertical
+--dt text S
+    time step [s] of files that state none (one column); or a column of --metadata
+--orientation text*... DIR
+    direction of files that do not state it: an azimuth [degrees], N28W, up, ...; one for each
+    record; or a column of --metadata
+--metadata file FILE
+    CSV file with a row for each record, identified by a column file, record or name; its columns
+    units, dt (or dt_s) and orientation apply
+--detrend mean|line? WHAT
+    remove the mean of each acceleration, or the straight line that fits it best: mean (default) or
+    line; for records without a corrected baseline, as of K-NET
+--gaps
+    accept time steps over ten times the median
+--strict
+    stop at the first failure, with exit code 2 and nothing on stdout; pictures written before it
+    remain
+"""
+VERTICAL = """
+[records, one of]
+--station
+    group the components of each station, from one file or several: the vertical one acts too, and
+    --component is a horizontal component or an azimuth [degrees] (default: the first horizontal
+    component)
+--vertical file FILE
+    vertical component of the record, from another file with the same samples
+"""
 
 
 class Motion(NamedTuple):
     """A ground motion of a file."""
 
+    place: int  # of the file given, from 0
+    file: Path
     motion: GroundMotion
     component: int | None  # from 1, where all are read
     units: str  # of the acceleration in the file; empty where it states none
@@ -146,25 +85,28 @@ class Motion(NamedTuple):
     sources: tuple[str, str, str, str] = ("", "", "", "")
 
 
-class Batch:
-    """The files of a command line.
+class Records:
+    """The ground motions of a command line, in an iteration that prints warnings.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+    scaled : bool, optional
+        Whether --scale, one number, applies to each motion.
 
     Attributes
     ----------
-    files : list of Path
-        The files given, with folders and patterns expanded.
-    errors, left_out : list of dict
-        Failures and vertical components left out so far, as --json lists them.
-    figures : list of str
-        Pictures written so far.
+    report : Report
+        Keeps what fails.
     """
 
-    def __init__(self, args: argparse.Namespace) -> None:
+    def __init__(self, args: argparse.Namespace, scaled: bool = False) -> None:
         scale = getattr(args, "scale", None)
         for value in scale if isinstance(scale, tuple) else [scale]:
             if value is not None and not math.isfinite(value):
                 raise ValueError(f"--scale must be finite, got {value:g}")
         self.args = args
+        self._factor = args.scale if scaled else 1.0
         metadata = Metadata(args.metadata, "--metadata") if args.metadata else None
         directions = args.orientation or []
         self._reading = readings(
@@ -199,64 +141,21 @@ class Batch:
             )
         if self.vertical is not None and len(self.files) != 1:
             raise ValueError(f"--vertical goes with one record, got {len(self.files)}")
-        # What must not be written to.
-        self.inputs = [*self.files, *(f for f in (self.vertical, args.metadata) if f)]
-        self.errors: list[dict[str, str]] = []
-        self.left_out: list[dict[str, str]] = []
-        self.figures: list[str] = []
-        self.found = 0
-        self.pictures = list(self._pictures())
-        outputs = [("--plot", picture) for picture in self.pictures]
-        if args.csv:
-            outputs.append(("--csv", args.csv))
-        check_outputs(outputs, self.inputs)
+        others = [file for file in (self.vertical, args.metadata) if file]
+        self.report = Report(args, self.files, [*self.files, *others])
 
-    def finish(self) -> dict[str, list[dict[str, str]]]:
-        """Report what failed and what was left out; returns it for --json."""
-        for line in grouped((each["file"], each["error"]) for each in self.errors):
-            complain(line)
-        for line in grouped((each["file"], each["reason"]) for each in self.left_out):
-            complain(f"left out: {line}")
-        self.args.code = 1 if self.errors or (self.left_out and not self.found) else 0
-        return {"errors": self.errors, "left_out": self.left_out}
+    def __iter__(self) -> Iterator[Motion]:
+        for found in self._stations() if self.station else self._records():
+            self.report.found += 1
+            with self.report.kept(found.file):
+                if self._factor != 1:
+                    found = found._replace(motion=found.motion.scaled(self._factor))
+                yield found
 
-    def answer(
-        self,
-        columns: Sequence[str],
-        rows: list[dict[str, Any]],
-        lines: Iterable[str],
-        **more: Any,
-    ) -> str:
-        """Write the rows to --csv and `finish`; the JSON document, or the lines for a person."""
-        if self.args.csv:
-            write_csv(self.args.csv, columns, rows)
-        found = self.finish()
-        if self.args.json:
-            return json_text({"results": rows, **more, **found, "figures": self.figures})
-        written = [*self.figures, *([str(self.args.csv)] if self.args.csv else [])]
-        return "\n".join([*lines, *(f"wrote {printable(name)}" for name in written)])
-
-    @contextlib.contextmanager
-    def reported(self, file: Path, prefix: str = "") -> Iterator[None]:
-        """Keep a failure for the end and continue, unless --strict."""
-        try:
-            yield
-        except FAILURES as error:
-            reason = prefix + with_options(reason_of(error, file), "--{}")
-            if self.args.strict:
-                raise StrictError(f"{file}: {reason}") from error
-            self.errors.append({"file": str(file), "error": reason})
-
-    def motions(self) -> Iterator[tuple[int, Path, Motion]]:
-        """The requested ground motions, with the place of their file; prints warnings."""
-        for each in self._stations() if self.station else self._records():
-            self.found += 1
-            yield each
-
-    def _records(self) -> Iterator[tuple[int, Path, Motion]]:
+    def _records(self) -> Iterator[Motion]:
         """The ground motions of separate files."""
         for place, file in enumerate(self.files):
-            with self.reported(file):
+            with self.report.kept(file):
                 chosen = self.args.component
                 which = None if chosen in ("all", "vertical") else chosen
                 with self._warnings(file):
@@ -265,13 +164,13 @@ class Batch:
                     raise ValueError(f"--vertical goes with one record, got {len(found)}")
                 for one, components in found:
                     path = Path(one.shown)
-                    with self.reported(path):
+                    with self.report.kept(path):
                         motions = self._chosen(place, path, components)
                         if len(found) > 1:
                             member = Path(one.shown.rpartition("::")[2]).stem
                             motions = [m._replace(member=member) for m in motions]
                         for motion in motions:
-                            yield place, path, self._finished(path, motion)
+                            yield self._finished(motion)
 
     def _tried(
         self, place: int, file: Path, component: str | None = None, only_one: bool = False
@@ -292,9 +191,9 @@ class Batch:
         for one, answer in tried(file, read):
             if isinstance(answer, NotARecord):
                 reason = reason_of(answer, Path(one.shown))
-                self.left_out.append({"file": one.shown, "reason": reason})
+                self.report.left_out.append({"file": one.shown, "reason": reason})
             elif isinstance(answer, Exception):
-                with self.reported(Path(one.shown)):
+                with self.report.kept(Path(one.shown)):
                     raise answer
             else:
                 found.append((one, answer))
@@ -311,25 +210,7 @@ class Batch:
                 text = f"{file}: {_in_words_of_the_command(text)}"
             complain(f"warning: {text}")
 
-    def save(self, figure: Figure, place: int = 0, motion: Motion | None = None) -> None:
-        """Save the picture of one motion of a file, or the one picture of all."""
-        from .. import plotting
-
-        picture = self.pictures[place] if motion is None else self.picture(place, motion)
-        plotting.save(figure, picture)
-        self.figures.append(str(picture))
-
-    def picture(self, place: int, motion: Motion) -> Path:
-        """The name of the picture of one motion of a file."""
-        picture = self.pictures[place]
-        parts = [part for part in (motion.member, motion.component) if part]
-        if not parts:
-            return picture
-        picture = picture.with_stem("-".join([picture.stem, *map(str, parts)]))
-        check_outputs([("--plot", picture)], self.inputs)
-        return picture
-
-    def _finished(self, file: Path, found: Motion) -> Motion:
+    def _finished(self, found: Motion) -> Motion:
         """A motion with --vertical and --detrend; prints warnings."""
         motion = found.motion
         if self.vertical is not None:
@@ -340,7 +221,7 @@ class Batch:
                 raise ValueError(f"--vertical: {reason_of(error)}") from error
             motion = _with_vertical(motion, up.motion)
         motion = without_trend(motion, self._trend)
-        with self._warnings(file):
+        with self._warnings(found.file):
             warn_if_implausible(motion, "read_record")
         return found._replace(motion=motion)
 
@@ -361,7 +242,9 @@ class Batch:
                 continue
             number = k if len(found) > 1 else None
             given = reading.row_units or reading.units
-            motions.append(Motion(one.motion, number, one.units, given, sources=one.sources))
+            motions.append(
+                Motion(place, file, one.motion, number, one.units, given, sources=one.sources)
+            )
         if chosen == "vertical" and not motions:
             raise ValueError("no component is known to be vertical")
         return motions
@@ -371,15 +254,15 @@ class Batch:
         if not (self.args.horizontal and component.is_vertical):
             return False
         reason = f"a vertical component ({component.motion.orientation}); --component vertical"
-        self.left_out.append({"file": file, "reason": f"{reason} slides along it"})
+        self.report.left_out.append({"file": file, "reason": f"{reason} slides along it"})
         return True
 
-    def _stations(self) -> Iterator[tuple[int, Path, Motion]]:
+    def _stations(self) -> Iterator[Motion]:
         """The ground motions of stations."""
         places: dict[str, int] = {}
         parts: list[Part] = []
         for place, file in enumerate(self.files):
-            with self.reported(file):
+            with self.report.kept(file):
                 if str(file).startswith(_SAMPLE):
                     raise ValueError(
                         "a sample record has one component; give the files of a station"
@@ -395,7 +278,7 @@ class Batch:
         for station in stations:
             place = places[station.files[0]]
             file = self.files[place]
-            with self.reported(file):
+            with self.report.kept(file):
                 only = station.parts[0].component
                 if station.reason and self._leaves_out(station.files[0], only):
                     continue
@@ -411,23 +294,7 @@ class Batch:
                     if station.reason:
                         warnings.warn(f"{file}: {station.reason}", RuntimeWarning, stacklevel=1)
                     warn_if_implausible(motion, "read_station")
-                yield place, file, Motion(motion, None, only.units)
-
-    def _pictures(self) -> Iterator[Path]:
-        """One picture for each record, where a number distinguishes records of the same name, or
-        one of all."""
-        plot = self.args.plot
-        if not plot:
-            return
-        from .. import plotting  # imports matplotlib, which is slow
-
-        plotting.check_suffix(plot)
-        if getattr(self.args, "one_picture", False):
-            yield plot
-            return
-        for place, record in enumerate(self.files, 1):
-            several = f"-{place}-{record.stem}" if len(self.files) > 1 else ""
-            yield plot.with_stem(f"{plot.stem}{several}")
+                yield Motion(place, file, motion, None, only.units)
 
 
 def _expanded(given: Path) -> list[Path]:
