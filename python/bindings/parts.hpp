@@ -97,10 +97,10 @@ inline constexpr auto parts<PlanarEvent> = std::tuple(&PlanarEvent::time, &Plana
 template <>
 inline constexpr auto parts<PlanarResponse> =
     std::tuple(&PlanarResponse::displacement, &PlanarResponse::velocity, &PlanarResponse::events, &PlanarResponse::peak,
-               &PlanarResponse::peak_time, &PlanarResponse::peak_displacement, &PlanarResponse::residual,
-               &PlanarResponse::sliding_distance, &PlanarResponse::time_sliding, &PlanarResponse::energy,
-               &PlanarResponse::gap, &PlanarResponse::temperature, &PlanarResponse::heat, &PlanarResponse::truncated,
-               &PlanarResponse::contact, &PlanarResponse::components, &PlanarResponse::state);
+               &PlanarResponse::residual, &PlanarResponse::sliding_distance, &PlanarResponse::time_sliding,
+               &PlanarResponse::energy, &PlanarResponse::gap, &PlanarResponse::truncated, &PlanarResponse::contact,
+               &PlanarResponse::components, &PlanarResponse::state, &PlanarResponse::temperature,
+               &PlanarResponse::peak_time, &PlanarResponse::peak_displacement, &PlanarResponse::heat);
 template <>
 inline constexpr auto parts<Orbit> = std::tuple(&Orbit::load, &Orbit::omega, &Orbit::amplitude, &Orbit::phase,
                                                 &Orbit::stops_per_cycle, &Orbit::reversals_per_cycle,
