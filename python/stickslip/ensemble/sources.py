@@ -20,6 +20,7 @@ from .._core import (
     MultiPendulum,
     PlanarSlider,
     PoissonPulses,
+    SlenderBlock,
     Slider,
     StaticKinetic,
     Stribeck,
@@ -99,6 +100,7 @@ AnySlider: TypeAlias = (
 )
 AnyStructure: TypeAlias = IsolatedStructure | EquipmentOnFloor | FlexibleSlope
 AnyMember: TypeAlias = "AnySlider | AnyStructure"
+Blocks: TypeAlias = "SlenderBlock | Sequence[SlenderBlock]"
 AnySliders: TypeAlias = "AnyMember | Sequence[AnyMember] | Drawn[AnyMember] | SliderSource"
 Records: TypeAlias = "GroundMotion | Sequence[GroundMotion] | Drawn[GroundMotion]"
 AnyMotions: TypeAlias = (

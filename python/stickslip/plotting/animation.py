@@ -16,12 +16,13 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon, Rectangle
 from numpy.typing import NDArray
 
-from .._core import PlanarResponse, Response, Slider
+from .._core import PlanarResponse, Response, RockingResponse, Slider
 from .._files import replacing
 from .figures import new_figure
 from .panels import near_stops
 from .planar import draw_stop, make_square, name_directions, path_of
 from .player import Film, Group
+from .rocking import block_on_ground
 from .styles import BLUE, GRAY, INK, PALE, VERMILION, put_title, style
 from .trajectory import window
 from .words import describe, unit_for
@@ -96,7 +97,7 @@ def check_moving_suffix(file: Path) -> str:
 
 
 def animate(
-    response: Response | PlanarResponse,
+    response: Response | PlanarResponse | RockingResponse,
     *,
     time: tuple[float, float] | None = None,
     speed: float = 1.0,
@@ -104,7 +105,7 @@ def animate(
     title: str | None = None,
     size: tuple[float, float] | None = None,
 ) -> Animation:
-    """Show the object sliding on its moving floor, with the history of its displacement below.
+    """Show the object on its moving floor, with the history of its displacement below.
 
     A block, a cart where the law is that of a caster, or a floor on bearings where a spring or a
     pendulum draws it back. It moves by the exact displacement at each frame; the floor moves by the
@@ -150,7 +151,8 @@ def animate(
     times = np.linspace(begin, end, max(count, 2))
     planar = isinstance(response, PlanarResponse)
     with style():
-        draw = _in_plane if planar else _on_axis
+        draw = _rocking if isinstance(response, RockingResponse) else _on_axis
+        draw = _in_plane if planar else draw
         figure, film = draw(response, times, title, size or ((6, 5) if planar else (6, 4)))
         film.update(0)
         # Laid out twice, for what the first changes; not at each frame, which would take longer.
@@ -184,6 +186,12 @@ def _states(response: Any, times: NDArray[np.float64]) -> NDArray[np.void]:
     """The states; at rest after the last event, which may come before the last sample."""
     states: NDArray[np.void] = response.at(np.minimum(times, response.events["time"][-1]))
     return states
+
+
+def _rocking(
+    response: Any, times: NDArray[np.float64], title: str | None, inches: tuple[float, float]
+) -> tuple[Figure, Film]:
+    return block_on_ground(response, times, _ground(response, times, None), title, inches)
 
 
 def _on_axis(
