@@ -73,6 +73,11 @@ inline constexpr std::array ranges{
     PlausibleRange{"slope", "degrees", 1, 90, 1, 60, "slopes", {{{"it is in radians", 180 / std::numbers::pi}}}},
     PlausibleRange{"period", "s", 0, 60, 0.01, 20, "structures and mountings", {in_ms}},
     PlausibleRange{"angular frequency", "rad/s", 0, 1e4, 0.1, 500, "mountings and soils"},
+    // Blocks with 5 cm to 29 m from a corner to the center of mass.
+    PlausibleRange{"frequency parameter", "rad/s", 0.5, 12, 0.5, 12, "blocks that rock",
+                   {{{"width and height are in mm", root_of_1000}, {"width and height are in cm", 10}}}, computed},
+    PlausibleRange{"angle of a slender block", "rad", 0, 0.35 * (1 + 1e-12), 0, 0.35, "slender blocks", {}, given,
+                   always_odd, "its angles are no longer small, as this model takes them"},
     PlausibleRange{"damper", "1/s", 0, 1e4, 0.01, 100, "mountings"},
     // Structures are damped by 0.5 to 20 %, strained soil by up to 50 %; filters and mountings also critically.
     PlausibleRange{"damping ratio", "", 0, 1, 0.005, 0.95, "structures and soils", {in_percent}, given, nothing_slips},

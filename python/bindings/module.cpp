@@ -3,6 +3,7 @@
 #include <string>
 
 #include "bindings.hpp"
+#include "rocking/rocking.hpp"
 #include "structure/structure.hpp"
 
 namespace {
@@ -63,6 +64,9 @@ PYBIND11_MODULE(_core, m) {
   bind_structure(m);
   bind_structure_advance(m);
   bind_structure_response(m);
+  bind_slender_block(m);
+  bind_rocking_advance(m);
+  bind_rocking_response(m);
   bind_histories(m);
   bind_planar_histories(m);
   bind_envelope(m);
@@ -83,6 +87,7 @@ PYBIND11_MODULE(_core, m) {
   bind_drawn(m);
   bind_ensemble(m);
   bind_ensemble_sensitivity(m);
+  bind_rocking_outcomes(m);
   bind_identity(m);
   bind_sweep(m);
   bind_orientations(m);

@@ -63,7 +63,11 @@ from ._core import (
     Rayleigh,
     Response,
     ResponseSpectrum,
+    RockingEnergy,
+    RockingResponse,
+    RockingState,
     Sensitivity,
+    SlenderBlock,
     Slider,
     Spectrum,
     State,
@@ -87,6 +91,7 @@ from ._core import (
     __version__,
     advance,
     build_info,
+    critical_scales,
     estimate_spectrum,
     fit_pulses,
     histories,
@@ -110,8 +115,9 @@ if TYPE_CHECKING:
     from .risk.efficiency import IntensityEfficiency, intensity_efficiency
     from .risk.fragility import Fragility
     from .risk.hazard import Exceedances, Hazard, read_hazard
-    from .risk.observations import impact
+    from .risk.observations import impact, overturning
     from .risk.yield_acceleration import yield_acceleration
+    from .rocking import RockingEnsemble, RockingSpectrum, RockingTable, rocking_spectrum
     from .sweeps import (
         Grid,
         Orientations,
@@ -178,8 +184,15 @@ __all__ = [
     "Rayleigh",
     "Response",
     "ResponseSpectrum",
+    "RockingEnergy",
+    "RockingEnsemble",
+    "RockingResponse",
+    "RockingSpectrum",
+    "RockingState",
+    "RockingTable",
     "RotD",
     "Sensitivity",
+    "SlenderBlock",
     "Slider",
     "Spectrum",
     "State",
@@ -209,6 +222,7 @@ __all__ = [
     "asce43",
     "build_info",
     "compare",
+    "critical_scales",
     "design_chart",
     "ensemble_sensitivity",
     "estimate_spectrum",
@@ -221,12 +235,14 @@ __all__ = [
     "intensity_efficiency",
     "interfaces",
     "orientations",
+    "overturning",
     "read_hazard",
     "read_record",
     "read_station",
     "record_formats",
     "regressions",
     "response_spectrum",
+    "rocking_spectrum",
     "rotd",
     "run_ensemble",
     "sample_record",
@@ -254,7 +270,7 @@ if not TYPE_CHECKING:
         "risk.efficiency": ("IntensityEfficiency", "intensity_efficiency"),
         "risk.fragility": ("Fragility",),
         "risk.hazard": ("Exceedances", "Hazard", "read_hazard"),
-        "risk.observations": ("impact",),
+        "risk.observations": ("impact", "overturning"),
         "sweeps": (
             "Grid",
             "Orientations",
@@ -267,6 +283,7 @@ if not TYPE_CHECKING:
         ),
         "risk.asce43": ("ASCE43Estimate", "asce43"),
         "risk.yield_acceleration": ("yield_acceleration",),
+        "rocking": ("RockingEnsemble", "RockingSpectrum", "RockingTable", "rocking_spectrum"),
     }
 
     def __getattr__(name):

@@ -16,7 +16,7 @@
 #include "lanes/row_moments.hpp"
 #include "stickslip/base/equal.hpp"
 #include "stickslip/error.hpp"
-#include "stickslip/numerics/root.hpp"
+#include "stickslip/statistics/binomial.hpp"
 
 namespace stickslip {
 
@@ -733,13 +733,7 @@ Interval Ensemble::fraction(std::uint64_t count, double confidence) const {
   check_probability("Ensemble: confidence must lie between 0 and 1", confidence);
   const std::uint64_t members_all = members();
   need_two(members_all);
-  const auto k = static_cast<double>(count), n = static_cast<double>(members_all);
-  const double tail = (1 - confidence) / 2;
-  // GSL's inverse of the beta distribution fails to converge for one count in ten of 20,000, and would end the process.
-  const auto low = [&](double p) { return !(gsl_cdf_beta_P(p, k, n - k + 1) < tail); };
-  const auto high = [&](double p) { return !(gsl_cdf_beta_Q(p, k + 1, n - k) > tail); };
-  return {k / n, count == 0 ? 0 : numerics::first_where(0, 1, low),
-          count == members_all ? 1 : numerics::first_where(0, 1, high)};
+  return binomial_interval(count, members_all, confidence);
 }
 
 }  // namespace stickslip

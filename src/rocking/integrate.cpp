@@ -146,11 +146,11 @@ class RockingRecorder final : public RockingSink, public EventLog<double>, publi
  private:
   void reach(double rotation, double time) {
     const double size = std::abs(rotation);
+    response_.peak_ratio =
+        std::max(response_.peak_ratio, size / (rotation > 0 ? block_.alpha_right() : block_.alpha_left()));
     if (!(size > response_.peak)) return;
     response_.peak = size;
     response_.peak_time = time;
-    response_.peak_ratio =
-        std::max(response_.peak_ratio, size / (rotation > 0 ? block_.alpha_right() : block_.alpha_left()));
   }
   void vary_by_impact(double time, const RockingState& state) {
     const double r = block_.restitution();
@@ -248,9 +248,9 @@ class RockingRun {
         recorder.overturned(time, state);
         break;
       }
-      require(block_.restitution() < 1,
-              "integrate: a block with this restitution never comes to rest; use settle = false; restitution",
-              block_.restitution());
+      if (!(block_.restitution() < 1))
+        throw ConvergenceError(
+            "integrate: a block with a restitution of 1 never comes to rest; integrate it without settle");
       const RockingSegment calm{longest, 0, 0, standard_gravity, standard_gravity, true};
       recorder.begin_segment(time, time + longest, calm, {});
       move(block_, calm, state, recorder);

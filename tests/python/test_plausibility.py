@@ -577,6 +577,22 @@ ARGUMENTS = [
         40,
         "m/s^2, give pga_g=4.079",
     ),
+    (
+        "frequency parameter",
+        lambda v: ss.SlenderBlock(p=v, alpha=0.2, restitution=0.9),
+        "p",
+        2,
+        0.07,
+        "width and height are in mm, it is 2.214 rad/s",
+    ),
+    (
+        "angle of a slender block",
+        lambda v: ss.SlenderBlock(p=2, alpha=v, restitution=0.9),
+        "alpha",
+        0.35,
+        0.36,
+        "no longer small",
+    ),
     ("ground velocity", lambda v: MOTION.scaled_to(pgv=v), "pgv", 0.4, 40, "cm/s, give pgv=0.4"),
     (
         "Arias intensity",

@@ -71,6 +71,12 @@ FLOORS = ss.run_ensemble(
 )
 ON_BASE = ss.integrate(ss.IsolatedStructure(BLOCK, BUILDING, base_mass=1), EVEN)
 
+ROCKS = [
+    ss.SlenderBlock(p=2, alpha=0.01, restitution=0.9),
+    ss.SlenderBlock(p=2, alpha=0.01, alpha_left=0.02, restitution=0.9),
+]
+ROCKED = [ss.integrate(block, EVEN) for block in ROCKS]
+
 # Of each class, objects that differ.
 EXAMPLES = {
     ss.Coulomb: [BLOCK, ss.Coulomb(mu=0.2), ss.Coulomb(slip_level=1, backward=float("inf"))],
@@ -312,6 +318,13 @@ EXAMPLES = {
     ],
     ss.Sensitivity: [RESPONSES[0].sensitivity(name) for name in ("mu", "damping", "scale")],
     ss.Response: RESPONSES,
+    ss.SlenderBlock: ROCKS,
+    ss.RockingState: [ss.RockingState(), ss.RockingState(0.1), ss.RockingState(0, 0.1)],
+    ss.RockingResponse: ROCKED,
+    ss.RockingEnergy: [r.energy for r in ROCKED],
+    ss.RockingTable: [ss.sweep(block, EVEN) for block in ROCKS],
+    ss.RockingEnsemble: [ss.run_ensemble(ROCKS[0], EVEN, members=n, seed=1) for n in (1, 2)],
+    ss.RockingSpectrum: [ss.rocking_spectrum(EVEN, alpha=a, periods=[2]) for a in (0.01, 0.02)],
     ss.ResponseSpectrum: [
         ss.response_spectrum(EVEN, [0, 0.5]),
         ss.response_spectrum(EVEN, [0, 0.5], 0.02),
@@ -507,6 +520,7 @@ def test_what_differs_compares_different(kind):
 def test_what_can_change_has_no_hash_and_all_else_has_one():
     unhashable = {kind for kind in EXAMPLES if kind.__hash__ is None}
     tables = {ss.SweepTable, ss.IntensityMeasures, ss.SuiteSpectra, ss.RotD, ss.Orientations}
+    tables |= {ss.RockingTable, ss.RockingEnsemble, ss.RockingSpectrum}
     tables |= {ss.Fragility, ss.Hazard, ss.Exceedances, ss.DesignChart, ss.IntensityEfficiency}
     assert unhashable == {ss.Ensemble, ss.Comparison, ss.Grid} | tables
     for kind in EXAMPLES.keys() - unhashable:

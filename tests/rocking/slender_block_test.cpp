@@ -311,7 +311,7 @@ TEST_CASE("slender block: sizes, limits and bad input") {
         integrate(cabinet, GroundMotion({0, 1, 0}, 0.1).with_components({}, std::vector<double>{0, -10, 0}));
       },
       "leaves the ground");
-  refused([&] { integrate(SlenderBlock(2, 0.2, 1), still(), tilted(0.1)); }, "never comes to rest");
+  CHECK_THROWS_AS(integrate(SlenderBlock(2, 0.2, 1), still(), tilted(0.1)), ConvergenceError);
   RockingState state;
   refused([&] { advance(cabinet, {NAN, 0, 0}, state); }, "must be finite");
 }

@@ -6,9 +6,9 @@ spectrum`` their response spectra. ``stickslip orientations`` slides along all d
 station, ``stickslip sweep`` prints statistics over records, and ``stickslip fragility`` fits the
 probability of sliding further than thresholds. ``stickslip ensemble --event "great very near field"
 --mu 0.2 --members 100000`` prints statistics for random earthquakes, and ``stickslip thesis``
-redraws the figures of the thesis. ``stickslip completion bash`` prints a script that completes all
-this in a shell. Each subcommand is one file here, with a function that adds its arguments and one
-that runs it.
+redraws the figures of the thesis. ``stickslip rock`` prints whether blocks overturn, and
+``stickslip completion bash`` a script that completes all this in a shell. Each subcommand is one
+file here, with a function that adds its arguments and one that runs it.
 
 Exit codes: 0 on success, also for a slider that never comes to rest (its row says so); 1 if part of
 the work failed and the rest is printed: a record that cannot be read or slid, a picture or
@@ -36,6 +36,7 @@ from .output import FAILURES, complain, reason_of, version, write
 from .parser import Parser
 from .records import add_records
 from .report import StrictError
+from .rock import add_rock
 from .slide import add_slide
 from .spectrum import add_spectrum
 from .sweep import add_sweep
@@ -80,6 +81,7 @@ exit codes:
         add_slide,
         add_sweep,
         add_newmark,
+        add_rock,
         add_orientations,
         add_fragility,
         add_records,

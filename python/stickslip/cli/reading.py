@@ -102,7 +102,7 @@ class Records:
 
     def __init__(self, args: argparse.Namespace, scaled: bool = False) -> None:
         scale = getattr(args, "scale", None)
-        for value in scale if isinstance(scale, tuple) else [scale]:
+        for value in scale if isinstance(scale, (tuple, list)) else [scale]:
             if value is not None and not math.isfinite(value):
                 raise ValueError(f"--scale must be finite, got {value:g}")
         self.args = args

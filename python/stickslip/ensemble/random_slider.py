@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core
-from .._core import Lognormal, Normal, Uniform
+from .._core import Lognormal, Normal, SlenderBlock, Uniform
 from .._optional import optional
 from .sources import AnyMember
 
@@ -31,8 +31,8 @@ class Random:
     Parameters
     ----------
     kind : callable
-        Makes the slider, the law or the structure: a law such as `Coulomb`, `Slider`,
-        `PlanarSlider`, one of their constructors, such as `Caster.from_geometry`, or a function.
+        Makes the slider, the law, the structure or the block: a law such as `Coulomb`, `Slider`,
+        `PlanarSlider`, one of their constructors, such as `SlenderBlock.from_size`, or a function.
         For other processes it must pickle, as classes and module functions do.
     **parameters
         Its keyword arguments. A `Lognormal`, `Normal` or `Uniform` is sampled for each member; a
@@ -63,7 +63,7 @@ class Random:
     and the value: give a `Normal` bounds. A member costs some 20 us, one thread at a time.
     """
 
-    def __init__(self, kind: Callable[..., AnyMember], /, **parameters: Any) -> None:
+    def __init__(self, kind: Callable[..., AnyMember | SlenderBlock], /, **parameters: Any) -> None:
         if not callable(kind):
             raise TypeError(f"Random: kind must be callable, such as Coulomb, got {kind!r}")
         self._kind = kind
@@ -82,7 +82,7 @@ class Random:
         return getattr(self._kind, "__name__", None) or repr(self._kind)
 
     @property
-    def kind(self) -> Callable[..., AnyMember]:
+    def kind(self) -> Callable[..., AnyMember | SlenderBlock]:
         """The callable that makes the slider or the law."""
         return self._kind
 

@@ -6,7 +6,7 @@ import math
 import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
-from typing import Any, SupportsIndex
+from typing import TYPE_CHECKING, Any, SupportsIndex, cast, overload
 
 from .. import _core
 from .._core import Ensemble, GroundMotion
@@ -16,9 +16,13 @@ from ..runs.parts import check_executor
 from ..runs.progress import Progress, shown
 from .checkpoint import Checkpoint
 from .parts import Parts
-from .sources import AnyMotions, AnySliders, check_directions
+from .sources import AnyMotions, AnySliders, Blocks, check_directions
+
+if TYPE_CHECKING:
+    from ..rocking.ensemble import RockingEnsemble
 
 
+@overload
 def run_ensemble(
     sliders: AnySliders,
     motions: AnyMotions,
@@ -36,7 +40,37 @@ def run_ensemble(
     executor: Executor | None = None,
     checkpoint: str | os.PathLike[str] | None = None,
     checkpoint_every: float = 30.0,
-) -> Ensemble:
+) -> Ensemble: ...
+@overload
+def run_ensemble(
+    sliders: Blocks,
+    motions: AnyMotions,
+    *,
+    members: SupportsIndex,
+    seed: SupportsIndex,
+    first_member: SupportsIndex = 0,
+    threads: SupportsIndex | None = None,
+    settle: bool = False,
+    progress: bool | Progress = False,
+) -> RockingEnsemble: ...
+def run_ensemble(
+    sliders: AnySliders | Blocks,
+    motions: AnyMotions,
+    *,
+    members: SupportsIndex,
+    seed: SupportsIndex,
+    first_member: SupportsIndex = 0,
+    threads: SupportsIndex | None = None,
+    dt: float | None = None,
+    settle: bool = False,
+    contact: str | None = None,
+    velocity_spectrum: bool = True,
+    ground_acceleration: bool = False,
+    progress: bool | Progress = False,
+    executor: Executor | None = None,
+    checkpoint: str | os.PathLike[str] | None = None,
+    checkpoint_every: float = 30.0,
+) -> Ensemble | RockingEnsemble:
     """Simulate many members and compute statistics of their responses.
 
     x'' + resist sgn(x') + c x' + wn^2 x = -n(t), from rest at x = 0; thesis 4.4, 5.4. A member is a
@@ -103,7 +137,10 @@ def run_ensemble(
     Returns
     -------
     Ensemble
-        Identical to the last bit for any threads, executor and parts, and for a resumed run.
+        Identical to the last bit for any threads, executor and parts, and for a resumed run. With
+        `SlenderBlock`, a list of blocks or a `Random` that makes them, a `RockingEnsemble`, of
+        probabilities of overturning; `dt`, `contact`, `velocity_spectrum`, `ground_acceleration`,
+        `executor` and `checkpoint` are then refused.
 
     Raises
     ------
@@ -151,18 +188,44 @@ def run_ensemble(
     Thesis 4.4, 5.4; P. Pebay, Formulas for robust, one-pass parallel computation of covariances and
     arbitrary-order statistical moments, SAND2008-6212 (2008).
     """
+    from ..rocking.ensemble import has_blocks, run_blocks
+
     total = whole_number(members, "run_ensemble: members", 1)
     first = whole_number(first_member, "run_ensemble: first_member", 0)
     count = 0 if threads is None else whole_number(threads, "run_ensemble: threads", 1, 2**16)
     check_executor("run_ensemble", executor, None if threads is None else count)
+    key = whole_number(seed, "run_ensemble: seed", 0)
+    if has_blocks(sliders, key, first):
+        for name, given in (
+            ("dt", dt is not None),
+            ("contact", contact is not None),
+            ("velocity_spectrum", not velocity_spectrum),
+            ("ground_acceleration", ground_acceleration),
+            ("executor", executor is not None),
+            ("checkpoint", checkpoint is not None),
+        ):
+            if given:
+                raise ValueError(f"run_ensemble: {name} does not apply to blocks that rock")
+        with shown(progress) as show:
+            return run_blocks(
+                sliders,
+                motions,
+                members=total,
+                first_member=first,
+                seed=key,
+                settle=settle,
+                threads=count,
+                show=show,
+            )
     options = {
-        "seed": whole_number(seed, "run_ensemble: seed", 0),
+        "seed": key,
         "dt": 0.0 if dt is None else _positive("dt", dt),
         "settle": settle,
         "contact": contact,
         "velocity_spectrum": velocity_spectrum,
         "ground_acceleration": ground_acceleration,
     }
+    sliders = cast("AnySliders", sliders)
     if isinstance(motions, Sequence):
         records = [motion for motion in motions if isinstance(motion, GroundMotion)]
         check_directions(records, "run_ensemble")

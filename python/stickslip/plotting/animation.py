@@ -22,6 +22,7 @@ from .._core import (
     FlexibleSlope,
     PlanarResponse,
     Response,
+    RockingResponse,
     Slider,
     StructureResponse,
 )
@@ -32,6 +33,7 @@ from .figures import new_figure
 from .panels import near_stops
 from .planar import draw_stop, make_square, name_directions, path_of
 from .player import Film, Group
+from .rocking import block_on_ground
 from .styles import BLUE, GRAY, INK, PALE, VERMILION, put_title, style
 from .trajectory import sticks, window
 from .words import describe, describe_system, unit_for
@@ -117,7 +119,7 @@ def check_moving_suffix(file: Path) -> str:
 
 
 def animate(
-    response: Response | PlanarResponse | StructureResponse,
+    response: Response | PlanarResponse | StructureResponse | RockingResponse,
     *,
     time: tuple[float, float] | None = None,
     speed: float = 1.0,
@@ -125,7 +127,7 @@ def animate(
     title: str | None = None,
     size: tuple[float, float] | None = None,
 ) -> Animation:
-    """Show the object sliding on its moving floor, with the history of its displacement below.
+    """Show the object on its moving floor, with the history of its displacement below.
 
     A block, a cart where the law is that of a caster, or a floor on bearings where a spring or a
     pendulum draws it back. It moves by the exact displacement at each frame; the floor moves by the
@@ -172,7 +174,9 @@ def animate(
         )
     times = np.linspace(begin, end, max(count, 2))
     draw, inches = _on_axis, (6.0, 4.0)
-    if isinstance(response, PlanarResponse):
+    if isinstance(response, RockingResponse):
+        draw = _rocking
+    elif isinstance(response, PlanarResponse):
         draw, inches = _in_plane, (6.0, 5.0)
     elif isinstance(response, StructureResponse):
         if isinstance(response.system, FlexibleSlope):
@@ -224,6 +228,12 @@ def _states(response: Any, times: NDArray[np.float64]) -> NDArray[np.void]:
     """The states; at rest after the last event, which may come before the last sample."""
     states: NDArray[np.void] = response.at(np.minimum(times, response.events["time"][-1]))
     return states
+
+
+def _rocking(
+    response: Any, times: NDArray[np.float64], title: str | None, inches: tuple[float, float]
+) -> tuple[Figure, Film]:
+    return block_on_ground(response, times, _ground(response, times, None), title, inches)
 
 
 def _on_axis(

@@ -38,8 +38,9 @@ const last = film.time.length - 1;
 slider.max = last;
 let begin = null;
 function show(i) {
-  for (const [name, x, y] of film.moves)
-    document.getElementById(name).setAttribute("transform", `translate(${x[i]} ${y[i]})`);
+  for (const [name, x, y, turn, at] of film.moves)
+    document.getElementById(name).setAttribute(
+      "transform", `translate(${x[i]} ${y[i]})` + (turn ? ` rotate(${turn[i]} ${at})` : ""));
   for (const [name, colors] of film.fills)
     document.querySelector(`#${name} path`).style.fill = colors[i];
   trail.setAttribute("d", "M" + film.trail.slice(0, film.shown[i]).join("L"));
@@ -88,13 +89,19 @@ class Group:
         patch.set(transform=self.frame + self.axes.transData, clip_on=False, **options)
         self.parts.append(self.axes.add_patch(patch))
 
-    def move(self, x: NDArray[np.float64], y: NDArray[np.float64]) -> None:
-        """Set the place of the group in each frame, shape (F,) each."""
+    def move(
+        self,
+        x: NDArray[np.float64],
+        y: NDArray[np.float64],
+        turn: NDArray[np.float64] | None = None,
+    ) -> None:
+        """Set the place of the group in each frame, and its angle [rad], shape (F,) each."""
         self.places = np.column_stack([x, y])
+        self.turn = turn
 
 
 class Film:
-    """What moves in an animation: parts by translation, one color, and a trail with its head.
+    """What moves in an animation: groups of parts, one color, and a trail with its head.
 
     Both the frames of matplotlib and the page are drawn from it.
 
@@ -120,7 +127,8 @@ class Film:
     def update(self, i: int) -> list[Any]:
         """Show frame i."""
         for group in self.groups:
-            group.frame.clear().translate(*group.places[i])
+            group.frame.clear().rotate(0 if group.turn is None else group.turn[i])
+            group.frame.translate(*group.places[i])
         if self.body:
             self.body[0].set_facecolor(self.body[1][i])
         self.line.set_data(*self.points[: self.shown[i]].T)
@@ -141,13 +149,18 @@ class Film:
         moves, fills = [], []
         drawn = len(self.times) - 1  # with the whole trail
         heads = self.points[self.shown - 1]
-        moving = [(group.axes, group.parts, group.places) for group in self.groups]
-        for n, (axes, parts, places) in enumerate([*moving, (self.axes, [self.dot], heads)]):
+        moving = [(group.axes, group.parts, group.places, group.turn) for group in self.groups]
+        head = (self.axes, [self.dot], heads, None)
+        for n, (axes, parts, places, turn) in enumerate([*moving, head]):
             at = on_page(axes, places)
             x, y = (at - at[drawn]).round(2).T.tolist()
+            turned: list[Any] = []
+            if turn is not None:  # clockwise on the page, about the place in what is drawn
+                angles = np.degrees(turn[drawn] - turn).round(2).tolist()
+                turned = [angles, f"{at[drawn, 0]} {at[drawn, 1]}"]
             for k, part in enumerate(parts):
                 part.set_gid(f"part-{n}-{k}")
-                moves.append((part.get_gid(), x, y))
+                moves.append((part.get_gid(), x, y, *turned))
         if self.body:
             fills.append((self.body[0].get_gid(), self.body[1]))
         self.line.set_gid("trail")

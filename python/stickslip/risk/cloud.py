@@ -46,8 +46,8 @@ class Cloud:
         for one in data.thresholds:
             if isinstance(one, Event):
                 raise ValueError(
-                    "Fragility.fit: impact has no displacement for method='cloud'; use 'lognormal'"
-                    " or 'logit'"
+                    f"Fragility.fit: {one!r} has no displacement for method='cloud'; use"
+                    " 'lognormal' or 'logit'"
                 )
         censored_below = real(censored_below, "Fragility.fit: censored_below")
         if not 0 < censored_below < data.levels.min():

@@ -151,7 +151,8 @@ class Exceedance:
         steps = []
         for label, hits in zip(data.labels, self.hits):
             found = hits.sum()
-            what = "hit a stop" if label == "impact" else f"exceed {label}"
+            events = {"impact": "hit a stop", "overturning": "overturn"}
+            what = events.get(label, f"exceed {label}")
             if found in (0, total):
                 share, other = ("none", "higher") if found == 0 else ("all", "lower")
                 raise ValueError(

@@ -18,6 +18,7 @@ from .._tables import Columns
 from .._tabular import Tabular
 from ..motions.intensity import OF_DIRECTIONS
 from ..regressions import RangeWarning
+from ..rocking.sweep import RockingTable
 from ..runs.progress import Progress, shown
 from ..sweeps.table import SweepTable
 from .cloud import Cloud
@@ -69,7 +70,7 @@ class Fragility(Tabular):
     Attributes
     ----------
     thresholds : tuple
-        Displacements [m], or `ss.impact`.
+        Displacements [m], or `ss.impact` or `ss.overturning`.
     median : ndarray, shape (T,)
         Intensity at which the probability of exceedance is one half, in `im_unit`.
     beta : ndarray, shape (T,)
@@ -149,7 +150,7 @@ class Fragility(Tabular):
     @classmethod
     def fit(
         cls,
-        table: SweepTable,
+        table: SweepTable | RockingTable,
         im: Measure,
         thresholds: float | Event | Sequence[float | Event],
         *,
@@ -168,7 +169,7 @@ class Fragility(Tabular):
 
         Parameters
         ----------
-        table : SweepTable
+        table : SweepTable or RockingTable
             All sliders count as equally likely draws: of a `Random`, or one slider. Polarities and
             draws of one record, and its stripes, are not independent; they belong to one record,
             by the column `record` of the metadata if there is one.
@@ -178,8 +179,9 @@ class Fragility(Tabular):
             the ground motions; or a function of a GroundMotion. Of sliders in the plane, a measure
             is RotD50, the median over all directions; of stripes, whatever `stripes` scaled:
             `im_directions` says which.
-        thresholds : float, list of float, or ss.impact
-            Displacements [m], positive, increasing; or hitting a stop.
+        thresholds : float, list of float, ss.impact, or ss.overturning
+            Displacements [m], positive, increasing; or hitting a stop; or, of a RockingTable of one
+            scale, overturning, which need not grow with the intensity: the counts stand beside.
         quantity : {'peak', 'residual', 'sliding_distance'}
             The displacement.
         separate : bool, optional
@@ -229,7 +231,7 @@ class Fragility(Tabular):
         -----
         Newton's method, to 1e-9. 72,000 responses with three thresholds take about 50 ms.
         """
-        if not isinstance(table, SweepTable):
+        if not isinstance(table, (SweepTable, RockingTable)):
             raise TypeError(
                 f"Fragility.fit: table must be a SweepTable, as sweep returns it, got"
                 f" {type(table).__name__}"
@@ -246,7 +248,8 @@ class Fragility(Tabular):
         model: Exceedance | Cloud = (
             Cloud(data, censored_below) if method == "cloud" else Exceedance(data, method, separate)
         )
-        return cls(data, model, method, "impact" if data.labels == ("impact",) else quantity)
+        event = next((one.value for one in data.thresholds if isinstance(one, Event)), None)
+        return cls(data, model, method, event or quantity)
 
     def probability(self, im: ArrayLike) -> NDArray[np.float64]:
         """The probability of exceedance at intensities: the mean curves.

@@ -15,21 +15,33 @@ from numpy.typing import NDArray
 from .._core import GroundMotion, to_vector
 from .._numbers import real
 from ..motions.intensity import DIRECTIONS, LEVEL_UNITS, level_of
+from ..rocking.sweep import RockingTable
 from ..sweeps.table import SweepTable
 
-__all__ = ["Event", "Measure", "Observations", "impact", "measured", "observe", "records_of"]
+__all__ = [
+    "Event",
+    "Measure",
+    "Observations",
+    "impact",
+    "measured",
+    "observe",
+    "overturning",
+    "records_of",
+]
 
 
 class Event(Enum):
     """An event whose probability a fragility curve gives, in place of a threshold."""
 
     impact = "impact"
+    overturning = "overturning"
 
     def __repr__(self) -> str:
         return self.value
 
 
 impact = Event.impact
+overturning = Event.overturning
 
 # Columns of numbers that no displacement grows with.
 _NO_INTENSITIES = ("year", "stripe", "factor", "sa_period", "latitude", "longitude", "dt")
@@ -53,7 +65,7 @@ class Observations:
         Number of the record of each motion, from 0 to R - 1.
     displacement : ndarray, shape (J, M, P)
         Of each draw, motion and polarity [m]; NaN for failures. With `impact` 1 for a response that
-        hits a stop, otherwise 0.
+        hits a stop, otherwise 0; with `overturning` for a block that overturns.
     thresholds : tuple of float or Event
     """
 
@@ -75,7 +87,7 @@ class Observations:
     def labels(self) -> tuple[str, ...]:
         """The thresholds as text."""
         return tuple(
-            "impact" if isinstance(one, Event) else f"{one:.6g} m" for one in self.thresholds
+            one.value if isinstance(one, Event) else f"{one:.6g} m" for one in self.thresholds
         )
 
 
@@ -89,7 +101,7 @@ class Measured(NamedTuple):
     directions: str = ""  # over which it is taken; unknown of columns and functions of users
 
 
-def measured(table: SweepTable, im: Measure, who: str) -> Measured:
+def measured(table: SweepTable | RockingTable, im: Measure, who: str) -> Measured:
     """The intensity measure of each motion.
 
     Raises
@@ -118,7 +130,9 @@ def measured(table: SweepTable, im: Measure, who: str) -> Measured:
     return found
 
 
-def _by_function(table: SweepTable, im: Callable[[GroundMotion], float], who: str) -> Measured:
+def _by_function(
+    table: SweepTable | RockingTable, im: Callable[[GroundMotion], float], who: str
+) -> Measured:
     if not table.motions:
         raise ValueError(
             f"{who}: a function of a motion needs the ground motions, which a table from a file"
@@ -129,7 +143,7 @@ def _by_function(table: SweepTable, im: Callable[[GroundMotion], float], who: st
     return Measured(values, _FUNCTION if name == "<lambda>" else name, "")
 
 
-def _by_name(table: SweepTable, im: str, who: str) -> Measured:
+def _by_name(table: SweepTable | RockingTable, im: str, who: str) -> Measured:
     spectral = _SPECTRAL.fullmatch(im)
     name, period = ("sa_g", float(spectral[1])) if spectral else (im, None)
     unit = LEVEL_UNITS.get(name, "")
@@ -161,19 +175,19 @@ def _by_name(table: SweepTable, im: str, who: str) -> Measured:
     )
 
 
-def _numbers(table: SweepTable, name: str) -> NDArray[np.float64] | None:
+def _numbers(table: SweepTable | RockingTable, name: str) -> NDArray[np.float64] | None:
     """A column of numbers, or None."""
     column = table.metadata.get(name)
     return None if column is None or column.dtype.kind not in "iuf" else np.array(column, float)
 
 
-def _period(table: SweepTable, name: str) -> float | None:
+def _period(table: SweepTable | RockingTable, name: str) -> float | None:
     """The period of a column, which stripes of pseudo-accelerations state."""
     at = _numbers(table, "sa_period") if name == "sa_g" else None
     return None if at is None else float(at[0])
 
 
-def _directions(table: SweepTable) -> str:
+def _directions(table: SweepTable | RockingTable) -> str:
     """What the measures of the motions are of: those of stripes, otherwise RotD50 in the plane."""
     stated = table.metadata.get("directions")
     if stated is not None:
@@ -182,7 +196,7 @@ def _directions(table: SweepTable) -> str:
     return "rotd50" if table.planar and pairs else "axis"
 
 
-def _striped(table: SweepTable) -> Measured | None:
+def _striped(table: SweepTable | RockingTable) -> Measured | None:
     """The measure of which stripes are levels, or None."""
     stripe = _numbers(table, "stripe")
     if stripe is None:
@@ -196,7 +210,7 @@ def _striped(table: SweepTable) -> Measured | None:
     return None  # a column `pga_g` holds it
 
 
-def records_of(table: SweepTable) -> NDArray[np.intp]:
+def records_of(table: SweepTable | RockingTable) -> NDArray[np.intp]:
     """The number of the record of each motion, by the column `record` if there is one."""
     names = table.metadata.get("record")
     if names is None:
@@ -205,7 +219,7 @@ def records_of(table: SweepTable) -> NDArray[np.intp]:
 
 
 def observe(
-    table: SweepTable,
+    table: SweepTable | RockingTable,
     im: Measure,
     thresholds: float | Event | Sequence[float | Event],
     quantity: str,
@@ -228,10 +242,12 @@ def observe(
         raise ValueError(f"{who}: needs at least one threshold, got an empty list")
     if any(isinstance(one, Event) for one in given):
         if len(given) > 1:
-            raise ValueError(f"{who}: impact is a threshold on its own, got {len(given)}")
+            raise ValueError(f"{who}: {given[0]!r} is a threshold on its own, got {len(given)}")
         limits: tuple[float | Event, ...] = given
-        response = _hit(table, who)
+        response = (_fell if given[0] is overturning else _hit)(table, who)
     else:
+        if isinstance(table, RockingTable):
+            raise ValueError(f"{who}: of blocks that rock, thresholds must be ss.overturning")
         limits = tuple(to_vector(given, f"{who}: thresholds").tolist())
         response = np.abs(getattr(table, _quantity(table, quantity, who)))
         _check_thresholds(table, limits, quantity, who)
@@ -264,8 +280,23 @@ def _quantity(table: SweepTable, quantity: str, who: str) -> str:
     return quantity
 
 
-def _hit(table: SweepTable, who: str) -> NDArray[np.float64]:
+def _fell(table: SweepTable | RockingTable, who: str) -> NDArray[np.float64]:
+    """1 for each response that overturns, 0 for the others, NaN for failures."""
+    if not isinstance(table, RockingTable):
+        raise ValueError(f"{who}: overturning needs a sweep of blocks that rock")
+    if len(table.scale) != 1:
+        raise ValueError(
+            f"{who}: needs a sweep with one scale, got {len(table.scale)}; scale the records:"
+            " suite.stripes(pga_g=[0.1, 0.2, 0.4])"
+        )
+    fell = np.where(np.isnan(table.peak_rotation), np.nan, table.overturned != 0)
+    return fell[:, :, 0, :]
+
+
+def _hit(table: SweepTable | RockingTable, who: str) -> NDArray[np.float64]:
     """1 for each response that hits a stop, 0 for the others, NaN for failures."""
+    if isinstance(table, RockingTable):
+        raise ValueError(f"{who}: of blocks that rock, thresholds must be ss.overturning")
     without = int((~np.isfinite(table.stop_distance)).sum())
     if without == table.stop_distance.size:
         raise ValueError(f"{who}: impact needs sliders with stops, and none has any")

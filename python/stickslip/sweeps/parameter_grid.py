@@ -8,13 +8,19 @@ from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
 
-from .._core import EquipmentOnFloor, FlexibleSlope, IsolatedStructure, PlanarSlider
+from .._core import (
+    EquipmentOnFloor,
+    FlexibleSlope,
+    IsolatedStructure,
+    PlanarSlider,
+    SlenderBlock,
+)
 from ..ensemble.sources import AnySlider
 
 AnySwept: TypeAlias = (
     "AnySlider | PlanarSlider | IsolatedStructure | EquipmentOnFloor | FlexibleSlope"
 )
-S = TypeVar("S", bound=AnySwept)
+S = TypeVar("S", bound="AnySwept | SlenderBlock")
 
 
 class Grid(list[S]):
@@ -42,8 +48,8 @@ def grid(kind: Callable[..., S], /, **parameters: Any) -> Grid[S]:
     Parameters
     ----------
     kind : callable
-        Makes a slider, a law or a structure from keyword arguments: `Coulomb`, `Slider`,
-        `PlanarSlider`, `FlexibleSlope`, or your own function.
+        Makes a slider, a law, a structure or a block from keyword arguments: `Coulomb`, `Slider`,
+        `PlanarSlider`, `FlexibleSlope`, `SlenderBlock.from_size`, or your own function.
     **parameters
         A list, tuple, range or array varies; any other value is the same for all sliders. A `Grid`
         of laws varies too, and adds its own parameters. The last parameter varies fastest.

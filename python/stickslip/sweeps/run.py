@@ -9,9 +9,10 @@ import time
 import warnings
 from collections.abc import Iterable, Sequence
 from concurrent.futures import Executor
-from typing import Any, Literal, SupportsIndex
+from typing import Any, Literal, SupportsIndex, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .. import _core
 from .._core import (
@@ -21,12 +22,15 @@ from .._core import (
     GroundMotion,
     IsolatedStructure,
     PlanarSlider,
+    SlenderBlock,
     Slider,
 )
 from .._units import warn_of_units
 from ..ensemble.random_slider import Random
 from ..ensemble.sources import check_directions
 from ..motions.suite import Suite
+from ..rocking.ensemble import has_blocks
+from ..rocking.sweep import RockingTable, sweep_blocks
 from ..runs import parts
 from ..runs.progress import Progress, shown
 from .checkpoint import Checkpoint
@@ -40,6 +44,7 @@ _SLIDERS = (*_STRUCTURES, PlanarSlider, Slider, FrictionLaw)
 _PARTS = 64  # number of parts of the records for an executor
 
 
+@overload
 def sweep(
     sliders: AnySwept | Sequence[AnySwept] | Random,
     motions: GroundMotion | Sequence[GroundMotion],
@@ -55,7 +60,35 @@ def sweep(
     executor: Executor | None = None,
     checkpoint: str | os.PathLike[str] | None = None,
     checkpoint_every: float = 30.0,
-) -> SweepTable:
+) -> SweepTable: ...
+@overload
+def sweep(
+    sliders: SlenderBlock | Sequence[SlenderBlock],
+    motions: GroundMotion | Sequence[GroundMotion],
+    *,
+    scale: ArrayLike | None = None,
+    polarity: Polarity = "both",
+    settle: bool = False,
+    threads: SupportsIndex | None = None,
+    progress: bool | Progress = False,
+) -> RockingTable: ...
+def sweep(
+    sliders: AnySwept | SlenderBlock | Sequence[AnySwept] | Sequence[SlenderBlock] | Random,
+    motions: GroundMotion | Sequence[GroundMotion],
+    *,
+    scale: ArrayLike | None = None,
+    members: SupportsIndex | None = None,
+    seed: SupportsIndex | None = None,
+    stratified: bool = False,
+    polarity: Polarity = "both",
+    settle: bool = False,
+    contact: Literal["flight", "clipped"] | None = None,
+    threads: SupportsIndex | None = None,
+    progress: bool | Progress = False,
+    executor: Executor | None = None,
+    checkpoint: str | os.PathLike[str] | None = None,
+    checkpoint_every: float = 30.0,
+) -> SweepTable | RockingTable:
     """Integrate many sliders under many ground motions, from rest at x = 0.
 
     x'' + resist sgn(x') + c x' + wn^2 x = -n(t), thesis (4.51) to (4.53), (2.44), (2.50), (4.2);
@@ -71,6 +104,8 @@ def sweep(
     motions : GroundMotion, Suite or list of GroundMotion
         Records, which may differ in length and time step. In the plane they need a transverse
         component, as `read_station` and ``Suite.read(..., stations=True)`` give them.
+    scale : float or array_like, optional
+        With blocks that rock, factors of the ground motions, finite and at least 0; default: 1.
     members, seed : int, optional
         Number of sliders to draw from a `Random`, at least 1, and the seed, from 0 to 2^64 - 1;
         both are needed with a `Random`. Slider i equals ``sliders.sample(seed=seed, member=i)``.
@@ -103,7 +138,9 @@ def sweep(
     -------
     SweepTable
         Arrays over [slider, record, polarity]; identical to the last bit for any threads, executor
-        and parts, and for a resumed run.
+        and parts, and for a resumed run. With `SlenderBlock`, a list of blocks or a `Random` that
+        makes them, a `RockingTable` over [block, record, scale, polarity]; `contact`, `executor`
+        and `checkpoint` are then refused.
 
     Raises
     ------
@@ -145,8 +182,9 @@ def sweep(
     one, and results equal those of `integrate` to 1e-12 of the largest displacement, with
     stops to 1e-9. This needs even steps, classical damping and equipment without mass.
     """
-    sliders = _drawn(sliders, members, seed, stratified)
-    these = _sliders(sliders)
+    given = _drawn(sliders, members, seed, stratified)
+    rocks = has_blocks(given)
+    these: list[Any] = _blocks(given) if rocks else _sliders(given)
     if not isinstance(motions, (GroundMotion, Iterable)):
         raise TypeError(
             "sweep: motions must be a GroundMotion, a Suite or a list of GroundMotion, got"
@@ -161,8 +199,8 @@ def sweep(
     if threads is not None and not 1 <= count <= 2**16:
         raise ValueError(f"sweep: threads must be from 1 to 65536, got {count}")
     parts.check_executor("sweep", executor, None if threads is None else count)
-    for kind, given in (("slider", these), ("ground motion", those)):
-        if not given:
+    for kind, listed in (("slider", these), ("ground motion", those)):
+        if not listed:
             raise ValueError(f"sweep: needs at least one {kind}, got an empty list")
     for i, motion in enumerate(those):
         if not isinstance(motion, GroundMotion):
@@ -170,13 +208,29 @@ def sweep(
                 f"sweep: motions[{i}] must be a GroundMotion, got {type(motion).__name__}"
             )
     check_directions(those, "sweep")
+    signs = POLARITIES if polarity == "both" else (polarity,)
+    varied = getattr(given, "parameters", {})
+    if rocks:
+        for name, value in (
+            ("contact", contact),
+            ("executor", executor),
+            ("checkpoint", checkpoint),
+        ):
+            if value is not None:
+                raise ValueError(f"sweep: {name} does not apply to blocks that rock")
+        with shown(progress, who="sweep", things="combinations") as show:
+            return sweep_blocks(
+                these, varied, those, _metadata(motions), scale, signs, settle, count, show
+            )
+    if scale is not None:
+        raise ValueError("sweep: scale is for blocks that rock; scale the motions: 2 * motion")
     contact = _core._contact_of(contact, "sweep", isinstance(these[0], _STRUCTURES))
     table = SweepTable.empty(
         sliders=[repr(s) for s in these],
-        parameters=parameters_of(these, getattr(sliders, "parameters", {})),
+        parameters=parameters_of(these, varied),
         records=[m.name or f"record {i}" for i, m in enumerate(those)],
         metadata=_metadata(motions),
-        polarity=POLARITIES if polarity == "both" else (polarity,),
+        polarity=signs,
         settle=settle,
         contact=contact,
         has_stops=any(getattr(_interface(s), "stops", None) is not None for s in these),
@@ -209,6 +263,17 @@ def sweep(
     elif not table.peak.any() and not isinstance(these[0], _STRUCTURES):
         table.remark = warn_of_units("sweep", these, those)
     return table
+
+
+def _blocks(given: Any) -> list[SlenderBlock]:
+    these = [given] if isinstance(given, SlenderBlock) else list(given)
+    for i, one in enumerate(these):
+        if not isinstance(one, SlenderBlock):
+            raise TypeError(
+                "sweep: as sliders[0] is a SlenderBlock, all must be;"
+                f" sliders[{i}] is of type {type(one).__name__}"
+            )
+    return these
 
 
 def _interface(swept: AnySwept) -> Any:

@@ -1,0 +1,114 @@
+"""Tables of the responses of blocks that rock."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .._core import RockingResponse, build_info
+from .._optional import optional
+from .._tables import frame_of, html_table, json_text, write_csv
+from .._text import printable
+
+_UNITS = {
+    "time": "s",
+    "ground_acceleration": "m/s^2",
+    "vertical_ground_acceleration": "m/s^2",
+    "rotation": "rad",
+    "rate": "rad/s",
+}
+
+
+def _columns(response: RockingResponse) -> tuple[dict[str, NDArray[Any]], dict[str, str]]:
+    """The time and the histories of a response, and their units."""
+
+    def ground(values: NDArray[np.float64]) -> NDArray[np.float64]:
+        padded = np.zeros(len(response.time))
+        padded[: len(values)] = values
+        return padded
+
+    motion = response.motion
+    columns = {"time": response.time, "ground_acceleration": ground(motion.acceleration)}
+    if motion.vertical is not None:
+        columns["vertical_ground_acceleration"] = ground(motion.vertical)
+    columns |= {"rotation": response.rotation, "rate": response.rate}
+    return columns, {name: _UNITS[name] for name in columns}
+
+
+def to_dataframe(response: RockingResponse) -> Any:
+    """The histories as a pandas DataFrame; see `RockingResponse.to_dataframe`."""
+    return frame_of(*_columns(response), "RockingResponse.to_dataframe", index="time")
+
+
+def to_csv(response: RockingResponse, path: str | os.PathLike[str]) -> Path:
+    """Write the histories to a file; see `RockingResponse.to_csv`."""
+    return write_csv(*_columns(response), path)
+
+
+def to_xarray(response: RockingResponse) -> Any:
+    """The histories as an xarray Dataset; see `RockingResponse.to_xarray`."""
+    xarray = optional("xarray", "tables", "RockingResponse.to_xarray")
+    columns, units = _columns(response)
+    at = columns.pop("time")
+    return xarray.Dataset(
+        {name: ("time", values, {"units": units[name]}) for name, values in columns.items()},
+        coords={"time": ("time", at, {"units": "s"})},
+        attrs={
+            "block": repr(response.block),
+            "motion": response.motion.name,
+            "peak_rotation": response.peak_rotation,
+            "peak_rotation_units": "rad",
+            "overturned": response.overturned or "",
+        },
+    )
+
+
+_RESULTS = (
+    *("peak_rotation", "peak_time", "peak_rotation_ratio", "overturned", "overturned_at"),
+    *("impacts", "uplifts", "time_rocking", "at_rest", "margin", "condition", "remark"),
+)
+
+
+def to_json(response: RockingResponse) -> str:
+    """The results and histories as JSON; see `RockingResponse.to_json`."""
+    columns, units = _columns(response)
+    events = response.events
+    document = {
+        "stickslip": build_info()["version"],
+        "block": repr(response.block),
+        "motion": response.motion.name,
+        "components": response.components,
+        **{name: getattr(response, name) for name in _RESULTS},
+        "units": units,
+        **columns,
+        "events": [dict(zip(events.dtype.names or (), row)) for row in events.tolist()],
+    }
+    return json_text(document)
+
+
+def response_html(response: RockingResponse) -> str:
+    """A table of the main results of a response."""
+    if response.overturned:
+        outcome = ("overturned", f"to the {response.overturned}")
+        when = ("certain at", f"{response.overturned_at:.4g} s")
+    else:
+        ratio = f"{response.peak_rotation_ratio:.4g} alpha"
+        outcome = ("peak rotation", f"{response.peak_rotation:.4g} rad, {ratio}")
+        when = ("time of the peak", f"{response.peak_time:.4g} s")
+    rows = [
+        ("block", repr(response.block)),
+        ("ground motion", printable(response.motion.name) or repr(response.motion)),
+        outcome,
+        when,
+        ("impacts", f"{response.impacts:,}"),
+        ("time rocking", f"{response.time_rocking:.4g} s"),
+        ("margin of the nearest decision", f"{response.margin:.3g}"),
+        ("condition", f"{response.condition:.3g}"),
+    ]
+    if response.remark:
+        rows.append(("remark", response.remark))
+    return html_table("Response of a block that rocks", [], rows)

@@ -1,0 +1,92 @@
+#include "stickslip/rocking/outcomes.hpp"
+
+#include <atomic>
+#include <cmath>
+#include <stdexcept>
+
+#include "base/threads.hpp"
+#include "stickslip/error.hpp"
+#include "stickslip/rocking/integrate.hpp"
+
+namespace stickslip {
+namespace {
+
+struct Stopped {};
+
+RockingOutcome outcome(const SlenderBlock& block, const GroundMotion& motion, const RockingOptions& options) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  try {
+    const RockingResponse r = integrate(block, motion, options);
+    return {r.peak, r.peak_ratio, r.overturned, r.overturned_at, r.impacts, r.margin, r.condition};
+  } catch (const ConvergenceError& error) {
+    return {.peak = nan, .peak_ratio = nan, .failure = error.what()};
+  } catch (const std::invalid_argument& error) {
+    return {.peak = nan, .peak_ratio = nan, .failure = error.what()};
+  }
+}
+
+}  // namespace
+
+std::vector<RockingOutcome> rocking_outcomes(
+    std::size_t runs, const std::function<const SlenderBlock&(std::size_t)>& block_of,
+    const std::function<void(std::size_t, const std::function<void(const GroundMotion&)>&)>& motion_of,
+    const RockingRunOptions& options) {
+  std::vector<RockingOutcome> outcomes(runs);
+  std::atomic<bool> stopped = false;
+  std::atomic<std::size_t> given = 0, done = 0;
+  RockingOptions how;
+  how.settle = options.settle;
+  how.progress = [&] {
+    if (stopped) throw Stopped{};
+  };
+  detail::run_on_threads(
+      options.threads, runs, stopped,
+      [&] {
+        for (std::size_t i; !stopped && (i = given++) < runs; ++done)
+          motion_of(i, [&](const GroundMotion& motion) { outcomes[i] = outcome(block_of(i), motion, how); });
+      },
+      [&] {
+        if (options.progress) options.progress(done, runs);
+      });
+  return outcomes;
+}
+
+std::vector<ScaleRange> critical_scales(const SlenderBlock& block, const GroundMotion& motion, double up_to,
+                                        std::size_t steps, const std::function<void()>& progress) {
+  detail::require(std::isfinite(up_to) && up_to > 0, "critical_scales: up_to must be positive and finite", up_to);
+  detail::require(steps >= 1, "critical_scales: steps must be at least 1", static_cast<double>(steps));
+  RockingOptions how;
+  how.settle = true;
+  how.progress = progress;
+  const auto overturns = [&](double scale) {
+    if (progress) progress();
+    return integrate(block, motion.scaled(scale), how).overturned != 0;
+  };
+  // Where the outcome changes between two scales.
+  const auto bound = [&](double low, double high, bool at_high) {
+    while (high - low > 1e-12 * up_to) {
+      const double middle = low + (high - low) / 2;
+      (overturns(middle) == at_high ? high : low) = middle;
+    }
+    return high;
+  };
+  std::vector<ScaleRange> ranges;
+  bool before = false;
+  double last = 0;
+  for (std::size_t k = 1; k <= steps; ++k) {
+    const double scale = up_to * (static_cast<double>(k) / static_cast<double>(steps));
+    const bool now = overturns(scale);
+    if (now != before) {
+      const double at = bound(last, scale, now);
+      if (now)
+        ranges.push_back({at, up_to});
+      else
+        ranges.back().end = at;
+    }
+    before = now;
+    last = scale;
+  }
+  return ranges;
+}
+
+}  // namespace stickslip
