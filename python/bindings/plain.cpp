@@ -76,8 +76,8 @@ std::string call_of(const std::string& name, std::vector<Parameter> form) {
   return name + "(" + text_of(form) + ")";
 }
 
-/// One signature for all overloads: the longest one, with defaults for parameters that other overloads lack. If no such
-/// signature exists, the result accepts anything, and the text begins with a list of the overloads.
+/// One signature for all overloads: the longest one, with defaults for parameters that other overloads lack, and then those
+/// by name that only others have. If no such signature exists, the result accepts anything, and the text begins with a list of the overloads.
 std::string signature_of(const std::string& name, const std::vector<std::vector<Parameter>>& forms, std::string& text) {
   std::vector<Parameter> longest;
   for (const auto& form : forms)
@@ -96,6 +96,10 @@ std::string signature_of(const std::string& name, const std::vector<std::vector<
     }
     after_optional = after_optional || !one.value.empty();
   }
+  for (const auto& form : by_name&& fits ? forms : std::vector<std::vector<Parameter>>())
+    for (auto one = std::ranges::find(form, "*", &Parameter::name); one != form.end(); ++one)
+      if (std::ranges::find(longest, one->name, &Parameter::name) == longest.end())
+        longest.push_back({one->name, one->value.empty() ? "..." : one->value});
   if (fits) return text_of(longest);
   std::string known;
   for (const auto& form : forms) known += call_of(name, form) + "\n";

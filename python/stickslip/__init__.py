@@ -117,14 +117,16 @@ if TYPE_CHECKING:
     from .risk.hazard import Exceedances, Hazard, read_hazard
     from .risk.observations import impact, overturning
     from .risk.yield_acceleration import yield_acceleration
-    from .rocking import RockingEnsemble, RockingSpectrum, RockingTable, rocking_spectrum
+    from .rocking import RockingEnsemble, RockingTable
     from .sweeps import (
         Grid,
         Orientations,
+        RockingSpectrum,
         SweepError,
         SweepTable,
         grid,
         orientations,
+        rocking_spectrum,
         sliding_spectrum,
         sweep,
     )
@@ -274,16 +276,18 @@ if not TYPE_CHECKING:
         "sweeps": (
             "Grid",
             "Orientations",
+            "RockingSpectrum",
             "SweepError",
             "SweepTable",
             "grid",
             "orientations",
+            "rocking_spectrum",
             "sliding_spectrum",
             "sweep",
         ),
         "risk.asce43": ("ASCE43Estimate", "asce43"),
         "risk.yield_acceleration": ("yield_acceleration",),
-        "rocking": ("RockingEnsemble", "RockingSpectrum", "RockingTable", "rocking_spectrum"),
+        "rocking": ("RockingEnsemble", "RockingTable"),
     }
 
     def __getattr__(name):

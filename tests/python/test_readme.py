@@ -72,7 +72,7 @@ COMMANDS = [
 
 
 def test_all_command_lines_are_here():
-    assert len(COMMANDS) == 6
+    assert len(COMMANDS) == 7
 
 
 @pytest.mark.parametrize(

@@ -403,7 +403,9 @@ def test_a_block_in_motion_stands_on_its_corner():
 def test_pictures_of_runs():
     pytest.importorskip("matplotlib")
     e = ss.run_ensemble(UNIT, Held(), members=20, seed=1)
-    assert e.plot().axes[0].get_ylabel() == "probability of overturning"
+    from stickslip.plotting import plot_overturning
+
+    assert plot_overturning(e).axes[0].get_ylabel() == "probability of overturning"
     spectrum = ss.rocking_spectrum(QUAKE, alpha=0.2, periods=[2, 3, 5])
     assert spectrum.plot().axes[0].get_ylabel() == "peak rotation / alpha"
 

@@ -93,6 +93,18 @@ hits: NDArray[np.int64] = ss.sweep([one_plane], quake).impacts
 panels.append(swept.plot(ax=axes))
 for interface in ss.interfaces():
     low: float = interface["mu_low"]
+cabinet = ss.SlenderBlock.from_size(width=0.6, height=2)
+rocked = ss.integrate(cabinet, quake, settle=True, rotation=0.01)
+side: str | None = rocked.overturned
+certain: float | None = rocked.overturned_at
+tilt: NDArray[np.float64] = rocked.rotation
+rocked.plot().savefig("tilt.png")
+ends: NDArray[np.float64] = ss.critical_scales(cabinet, quake, up_to=2)
+fallen: NDArray[np.int8] = ss.sweep([cabinet], quake, scale=[1, 2]).overturned
+chance: ss.Interval = ss.run_ensemble(cabinet, quake, members=2, seed=1).overturning()
+chances: list[ss.Interval] = ss.run_ensemble(cabinet, quake, members=2, seed=1).overturning([1])
+ss.rocking_spectrum(quake, alpha=0.2, periods=[1, 2]).plot()
+ss.grid(ss.SlenderBlock, p=[1, 2], alpha=0.2, restitution="housner")[0].p
 far = max(r.peak, r.residual, r.sliding_distance, r.time_sliding)
 same: bool = block == wheel or hash(block) == hash(cart)
 words: dict[str, str] = ss.build_info()
@@ -208,11 +220,11 @@ pulses.sample(seed=1, member=0.5)  # type: ignore[arg-type]
 block.slip_level = 2.0  # type: ignore[misc]
 r.peak = 2.0  # type: ignore[misc]
 e.members = 3  # type: ignore[misc]
-ss.run_ensemble(block, soil, members=10, seed=1)  # type: ignore[arg-type]
+ss.run_ensemble(block, soil, members=10, seed=1)  # type: ignore[call-overload]
 ss.run_ensemble([block, quake], quake, members=10, seed=1)  # type: ignore[list-item]
 ss.run_ensemble(block, ss.Drawn([block]), members=10, seed=1)  # type: ignore[list-item]
-ss.run_ensemble(block, Mine(), members=1e3, seed=1)  # type: ignore[arg-type]
-ss.run_ensemble(block, Mine(), members=10)  # type: ignore[call-arg]
+ss.run_ensemble(block, Mine(), members=1e3, seed=1)  # type: ignore[call-overload]
+ss.run_ensemble(block, Mine(), members=10)  # type: ignore[call-overload]
 ss.theory.StationaryLinearization().predict(wheel, soil)  # type: ignore[call-overload]
 quake[0]  # type: ignore[index]
 ss.nothing  # type: ignore[attr-defined]

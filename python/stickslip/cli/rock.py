@@ -139,7 +139,7 @@ def _lines(rows: list[dict[str, Any]]) -> Iterable[str]:
     )
     for name, row in zip(names, rows):
         stands = row["overturned"] is None
-        ratio = column(row["peak_rotation_ratio"], 10, 4) if stands else f"{'':10}"
+        ratio = f"{row['peak_rotation_ratio']:10.3g}" if stands else f"{'':10}"
         yield (
             f"{name:{width}}  {column(row['pga_g'], 7, 3)}  {row['p_rad_s']:9.4g}"
             f"  {row['alpha_rad']:11.4g}  {row['restitution']:11.4g}  {ratio}"

@@ -31,7 +31,7 @@ from .hysteresis import plot_hysteresis
 from .pendulum import plot_pendulum_loop, plot_surfaces
 from .planar import plot_planar_response
 from .response import plot_response, plot_responses
-from .rocking import plot_rocking_phase, plot_rocking_response
+from .rocking import plot_overturning, plot_rocking_phase, plot_rocking_response
 from .structure import plot_floors, plot_modes, plot_structure_response
 from .styles import BLUE as BLUE
 from .styles import COLORS as COLORS
@@ -58,6 +58,7 @@ __all__ = [
     "plot_hysteresis",
     "plot_modes",
     "plot_orientations",
+    "plot_overturning",
     "plot_pendulum_loop",
     "plot_planar_response",
     "plot_response",

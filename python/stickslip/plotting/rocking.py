@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, overload
+from typing import Any, overload
 
 import numpy as np
 from matplotlib.figure import Figure, FigureBase
@@ -15,9 +15,6 @@ from .panels import draw_ground
 from .player import Film, Group
 from .styles import AT_RIGHT, BLUE, GRAY, INK, PALE, VERMILION, put_title, style
 from .words import digits, with_remark
-
-if TYPE_CHECKING:
-    from ..rocking import RockingEnsemble, RockingSpectrum
 
 _BEYOND = 1.5  # alphas that a picture of a fall shows
 
@@ -239,7 +236,7 @@ def _box(left: float, right: float, low: float, high: float) -> Any:
 
 
 def plot_rocking_spectrum(
-    spectrum: RockingSpectrum, figure: FigureBase | None = None, title: str | None = None
+    spectrum: Any, figure: FigureBase | None = None, title: str | None = None
 ) -> Any:
     """Plot a rocking spectrum; see `RockingSpectrum.plot`."""
     with style():
@@ -262,9 +259,23 @@ def plot_rocking_spectrum(
 
 
 def plot_overturning(
-    ensemble: RockingEnsemble, figure: FigureBase | None = None, title: str | None = None
+    ensemble: Any, figure: FigureBase | None = None, title: str | None = None
 ) -> Any:
-    """Plot the probability of overturning over time; see `RockingEnsemble.plot`."""
+    """Plot the probability of overturning over time, with its 95 % bounds.
+
+    Parameters
+    ----------
+    ensemble : RockingEnsemble
+        The result of `run_ensemble` with blocks.
+    figure : matplotlib Figure or SubFigure, optional
+        Where to draw; default: a new figure of 6 x 3.5 inches.
+    title : str, optional
+        Default: the number of members.
+
+    Returns
+    -------
+    matplotlib Figure or SubFigure
+    """
     with style():
         figure = figure or new_figure(6, 3.5)
         axes = figure.subplots()

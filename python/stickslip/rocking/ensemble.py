@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, overload
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,18 +13,15 @@ from .._core import Drawn, Interval, SlenderBlock
 from .._numbers import real, reals
 from .._tables import Columns
 from .._tabular import Tabular
-from ..ensemble.random_slider import Random
 from ..runs.progress import Progress
 from .sweep import RESULTS, SIDES, UNITS
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure, FigureBase
 
 
 class RockingEnsemble(Tabular):
     """What the members of a random run of blocks did, as `run_ensemble` returns it.
 
-    A single history may be chaotic; these probabilities are the answer.
+    A single history may be chaotic; these probabilities are the answer, and
+    `stickslip.plotting.plot_overturning` draws them.
 
     Attributes
     ----------
@@ -149,24 +146,6 @@ class RockingEnsemble(Tabular):
         """Peak |theta|/alpha of the members that stand: statistics of it leave out the others."""
         return self.peak_rotation_ratio[self.overturned == 0]
 
-    def plot(self, *, figure: FigureBase | None = None, title: str | None = None) -> Figure:
-        """Plot the probability of overturning over time, with its 95 % bounds.
-
-        Parameters
-        ----------
-        figure : matplotlib Figure or SubFigure, optional
-            Where to draw; default: a new figure.
-        title : str, optional
-            Default: the number of members.
-
-        Returns
-        -------
-        matplotlib Figure or SubFigure
-        """
-        from ..plotting.rocking import plot_overturning
-
-        return plot_overturning(self, figure, title)
-
     def _table(self) -> tuple[Columns, Mapping[str, str]]:
         columns: dict[str, NDArray[Any]] = {
             "member": self.first_member + np.arange(self.members),
@@ -198,7 +177,7 @@ def run_blocks(
     """The ensemble of blocks; see `stickslip.run_ensemble`."""
     if isinstance(blocks, SlenderBlock):
         these: list[Any] = [blocks]
-    elif isinstance(blocks, Random):
+    elif hasattr(blocks, "draw"):  # a Random
         these = [blocks.sample(seed=seed, member=first_member + i) for i in range(members)]
     else:
         listed = list(blocks)
@@ -227,7 +206,7 @@ def run_blocks(
 
 def has_blocks(sliders: Any, seed: int = 0, member: int = 0) -> bool:
     """Whether what a run takes as sliders are blocks, from the first of them."""
-    if isinstance(sliders, Random):
+    if hasattr(sliders, "draw"):  # a Random
         return isinstance(sliders.sample(seed=seed, member=member), SlenderBlock)
     if isinstance(sliders, Sequence) and len(sliders):
         return isinstance(sliders[0], SlenderBlock)

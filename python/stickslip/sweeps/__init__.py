@@ -3,6 +3,7 @@
 from .directions import OrientationPercentile, Orientations, orientations
 from .error import SweepError
 from .parameter_grid import Grid, grid
+from .rocking_spectrum import RockingSpectrum, rocking_spectrum
 from .run import sweep
 from .spectrum import sliding_spectrum
 from .table import SweepFailure, SweepTable
@@ -11,11 +12,13 @@ __all__ = [
     "Grid",
     "OrientationPercentile",
     "Orientations",
+    "RockingSpectrum",
     "SweepError",
     "SweepFailure",
     "SweepTable",
     "grid",
     "orientations",
+    "rocking_spectrum",
     "sliding_spectrum",
     "sweep",
 ]

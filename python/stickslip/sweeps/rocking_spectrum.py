@@ -12,7 +12,7 @@ from .._core import GroundMotion, SlenderBlock
 from .._numbers import reals
 from .._tables import Columns
 from .._tabular import Tabular
-from .sweep import SIDES, sweep_blocks
+from ..rocking.sweep import SIDES, sweep_blocks
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure, FigureBase
