@@ -14,8 +14,8 @@
 #include "rocking/overturning.hpp"
 #include "rocking/system.hpp"
 #include "stickslip/error.hpp"
-#include "stickslip/run/event_log.hpp"
-#include "stickslip/run/run.hpp"
+#include "stickslip/run/detail/event_log.hpp"
+#include "stickslip/run/detail/run.hpp"
 #include "stickslip/sliding/detail/loop.hpp"
 
 namespace stickslip {

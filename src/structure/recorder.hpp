@@ -11,7 +11,7 @@
 
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
-#include "stickslip/run/event_log.hpp"
+#include "stickslip/run/detail/event_log.hpp"
 #include "stickslip/structure/response.hpp"
 #include "structure/expansion.hpp"
 #include "structure/motion.hpp"

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "stickslip/error.hpp"
+#include "stickslip/run/detail/run.hpp"
 #include "stickslip/run/options.hpp"
-#include "stickslip/run/run.hpp"
 #include "stickslip/sliding/detail/run.hpp"
 #include "structure/modal_interface.hpp"
 #include "structure/move.hpp"

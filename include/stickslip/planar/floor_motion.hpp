@@ -21,7 +21,7 @@
 #include "stickslip/planar/state.hpp"
 #include "stickslip/planar/trajectory.hpp"
 #include "stickslip/planar/vector.hpp"
-#include "stickslip/run/reading.hpp"
+#include "stickslip/run/detail/reading.hpp"
 #include "stickslip/sliding/floor_motion.hpp"
 #include "stickslip/units.hpp"
 

@@ -9,7 +9,7 @@
 #include "stickslip/planar/slider.hpp"
 #include "stickslip/planar/state.hpp"
 #include "stickslip/planar/vector.hpp"
-#include "stickslip/run/run.hpp"
+#include "stickslip/run/detail/run.hpp"
 
 namespace stickslip {
 

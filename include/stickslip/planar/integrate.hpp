@@ -19,9 +19,9 @@
 #include "stickslip/planar/detail/engine.hpp"
 #include "stickslip/planar/response.hpp"
 #include "stickslip/planar/slider.hpp"
-#include "stickslip/run/event_log.hpp"
+#include "stickslip/run/detail/event_log.hpp"
+#include "stickslip/run/detail/run.hpp"
 #include "stickslip/run/options.hpp"
-#include "stickslip/run/run.hpp"
 #include "stickslip/sliding/detail/run.hpp"
 
 namespace stickslip {
@@ -77,7 +77,7 @@ class PlanarPieces {
 
 /// Move a slider through a ground motion and keep its motion at the samples. A slider that rests on level ground is
 /// asked for its next departure only.
-/// @tparam Recorder  a sink that is told where segments begin
+/// @tparam Recorder  a sink with `begin_segment`
 template <class Recorder>
 void walk_plane(const PlanarEngine& engine, const GroundMotion& motion, const PlanarPieces& pieces, Contact contact,
                 PlanarState& state, Recorder& recorder, const HistorySpansOf<Vector2>& histories) {

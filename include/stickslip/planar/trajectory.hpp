@@ -13,7 +13,7 @@
 #include "stickslip/planar/response.hpp"
 #include "stickslip/planar/slider.hpp"
 #include "stickslip/planar/state.hpp"
-#include "stickslip/run/reading.hpp"
+#include "stickslip/run/detail/reading.hpp"
 #include "stickslip/sliding/trajectory.hpp"
 
 namespace stickslip {

@@ -15,7 +15,7 @@
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/ground/response_spectrum.hpp"
 #include "stickslip/ground/segment.hpp"
-#include "stickslip/run/reading.hpp"
+#include "stickslip/run/detail/reading.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/sliding/trajectory.hpp"
 #include "stickslip/state.hpp"

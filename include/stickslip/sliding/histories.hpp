@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "stickslip/ground/ground_motion.hpp"
-#include "stickslip/run/run.hpp"
+#include "stickslip/run/detail/run.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/detail/engine_of.hpp"
 #include "stickslip/sliding/detail/recorder.hpp"

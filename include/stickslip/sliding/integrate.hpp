@@ -9,8 +9,8 @@
 
 #include "stickslip/error.hpp"
 #include "stickslip/ground/motion.hpp"
+#include "stickslip/run/detail/run.hpp"
 #include "stickslip/run/options.hpp"
-#include "stickslip/run/run.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/advance.hpp"
 #include "stickslip/sliding/detail/engine.hpp"

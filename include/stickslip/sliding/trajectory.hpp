@@ -17,7 +17,7 @@
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/ground/segment.hpp"
-#include "stickslip/run/reading.hpp"
+#include "stickslip/run/detail/reading.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/detail/engine.hpp"
 #include "stickslip/sliding/detail/engine_of.hpp"

@@ -9,8 +9,8 @@
 #include "stickslip/planar/segment.hpp"
 #include "stickslip/planar/slider.hpp"
 #include "stickslip/planar/state.hpp"
+#include "stickslip/run/detail/run.hpp"
 #include "stickslip/run/response.hpp"
-#include "stickslip/run/run.hpp"
 #include "stickslip/sliding/detail/engine.hpp"
 
 namespace stickslip::detail {

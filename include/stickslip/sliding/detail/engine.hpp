@@ -6,7 +6,7 @@
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/ground/segment.hpp"
-#include "stickslip/run/run.hpp"
+#include "stickslip/run/detail/run.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/detail/sink.hpp"
 #include "stickslip/sliding/response.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "stickslip/base/min_max.hpp"
-#include "stickslip/run/event_log.hpp"
+#include "stickslip/run/detail/event_log.hpp"
 #include "stickslip/sliding/detail/engine.hpp"
 #include "stickslip/sliding/detail/sink.hpp"
 #include "stickslip/sliding/observer.hpp"

@@ -10,7 +10,7 @@
 #include "stickslip/error.hpp"
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/ground/segment.hpp"
-#include "stickslip/run/run.hpp"
+#include "stickslip/run/detail/run.hpp"
 #include "stickslip/sliding/detail/engine.hpp"
 #include "stickslip/sliding/detail/sink.hpp"
 #include "stickslip/state.hpp"

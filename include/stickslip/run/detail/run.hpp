@@ -14,7 +14,7 @@
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/planar/vector.hpp"
-#include "stickslip/run/event_log.hpp"
+#include "stickslip/run/detail/event_log.hpp"
 #include "stickslip/run/response.hpp"
 
 namespace stickslip::detail {
@@ -37,7 +37,7 @@ struct HistorySpansOf {
 ///     start()                      // the state at the start; throws if no motion starts so
 ///     recorder(state, response)    // response: its histories get the length of the motion, and the first sample
 ///     walk(state, recorder, response)    // through the ground motion, keeping the motion at the samples
-///     settle(state, recorder, response)  // until it rests, with the samples up to then. Returns when that is [s]
+///     settle(state, recorder, response)  // to its rest, with the samples up to then. Returns when that is [s]
 ///     kinetic(state), elastic(state)     // energies per unit mass [m^2/s^2]
 ///     finish(state, response)            // hands over the state at the end, and where it is
 ///
