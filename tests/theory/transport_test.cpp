@@ -190,6 +190,20 @@ TEST_CASE("unequal and one-way levels under white noise drift as they must") {
   }
 }
 
+TEST_CASE("moments long after the start keep the exact growth, and early ones their errors") {
+  for (const double backward : {1.0, 2.0}) {
+    const std::vector<double> times{0.1, 1, 3000};
+    const Moments exact = theory::WhiteNoise(Coulomb(1.0, backward), 1.0).predict(times);
+    const auto found = Transport(1e-4).predict(Slider(Coulomb(1.0, backward)), 1.0, times);
+    for (Estimates Moments::*const figure : {&Moments::displacement_variance, &Moments::covariance})
+      for (const std::size_t k : {0U, 1U, 2U}) {
+        const Estimates &is = found.*figure, &must_be = exact.*figure;
+        CHECK(is.value[k] == Approx(must_be.value[k]).epsilon(1e-5));
+        CHECK(std::abs(is.value[k] - must_be.value[k]) <= is.error[k]);
+      }
+  }
+}
+
 TEST_CASE("a prediction scales with the units of length and time", "[long]") {
   const std::vector<double> times{2, 7}, scaled{2 / 5.0, 7 / 5.0};
   const auto one = Transport(0.05).predict(Slider(Coulomb(1.0), 0.7), kanai_tajimi(0.5, 1.2), times);

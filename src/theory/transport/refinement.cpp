@@ -67,6 +67,10 @@ double TransportProblem::level() const noexcept {
   return std::min(motion_.start(Direction::forward), motion_.start(Direction::backward));
 }
 
+double TransportProblem::levels_apart() const noexcept {
+  return std::max(motion_.start(Direction::forward), motion_.start(Direction::backward)) / level();
+}
+
 double TransportProblem::first_step() const noexcept {
   if (held_ > 0) return held_;
   if (pulses_) return pulses_->half_width;
@@ -94,11 +98,10 @@ TransportProblem::Window TransportProblem::free_window(double time) const noexce
 TransportProblem::Steps TransportProblem::steps_to(double time) const {
   const double step = first_step();
   if (!(time > 0)) return {step, 0};
-  const double count =
-      held_ > 0 || pulses_ ? std::ceil(time / step - 1e-9) : std::max(white() ? 24.0 : 8.0, std::ceil(time / step));
+  const double count = fixed_step() ? std::ceil(time / step - 1e-9) : std::max(least_steps(), std::ceil(time / step));
   require(count < 1e6, "Transport: the last time must be less than a million steps, of " + shortest(step) + " s; it",
           time, "s");
-  return {held_ > 0 || pulses_ ? step : time / count, static_cast<std::size_t>(count)};
+  return {fixed_step() ? step : time / count, static_cast<std::size_t>(count)};
 }
 
 TransportProblem::Slip TransportProblem::strong_pulse(double reach) const {
@@ -267,6 +270,9 @@ Refined refine(const TransportProblem& problem, const TransportProblem::Window& 
   if (problem.pulses()) return refine_pulses(problem, window, accuracy, compute, wall);
   constexpr std::size_t most_nodes = 8'000'000;
   const bool one_way = problem.one_way(), breaks_away = problem.motion().breaks_away() && !problem.white();
+  // Under white noise with levels far apart the steps are not yet short for the higher one, and changes are up to
+  // three times too small.
+  const double caution = problem.white() && problem.levels_apart() > 5 ? 3 : 1;
   Refined result;
   std::map<std::pair<std::size_t, std::size_t>, Figures> found;
   const auto with = [&](std::size_t halvings, std::size_t fineness) -> const Figures& {
@@ -286,18 +292,22 @@ Refined refine(const TransportProblem& problem, const TransportProblem::Window& 
     std::size_t first = 0, last = 0;
     if (!(problem.held() > 0))
       first = problem.white() ? 0 : level, last = level + (problem.white() ? (one_way ? 3 : 2) : breaks_away ? 2 : 1);
+    result.levels = level + 1;
     std::vector<Figures> column;
     for (std::size_t k = first; k <= last; ++k) column.push_back(with(k, fineness));
-    Figures before = column.back();
+    Figures before = column.back(), last_change = Figures::Zero(before.size());
+    result.error = last_change;
     for (std::size_t stage = 1; stage <= last - first; ++stage) {
       const double lowest = problem.white() && one_way ? 0.5 : problem.white() || breaks_away ? 1 : 2;
       const double ratio = std::exp2(lowest + 0.5 * static_cast<double>(stage - 1));
       for (std::size_t k = 0; k + stage <= last - first; ++k)
         column[k] = (ratio * column[k + 1] - column[k]) / (ratio - 1);
-      if (stage + 1 == last - first) before = column[1];
+      const Figures& finest = column[last - first - stage];
+      const Figures now = caution * (finest - before).cwiseAbs();
+      result.error = now.cwiseMax(std::exchange(last_change, now) / 2);
+      before = finest;
     }
     result.value = column.front();
-    result.error = (result.value - before).cwiseAbs();
     for (const Eigen::Index i : accuracy.slow) {
       if (last == first) break;
       // Filtered noise crosses a level infinitely often: the error is of the order of the root of the step. Successive

@@ -1,6 +1,7 @@
 #include "stickslip/theory/transport.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <complex>
@@ -22,6 +23,7 @@
 namespace stickslip::theory {
 namespace {
 
+using detail::Accuracy;
 using detail::Chain;
 using detail::Figures;
 using detail::MotionMoments;
@@ -125,6 +127,47 @@ void require_accuracy(const Refined& refined, double tolerance, Eigen::Index i, 
                          " with an error of " + detail::shortest(refined.error[i]) + " on the finest grid, of " +
                          std::to_string(refined.nodes) + " nodes; the tolerance must be larger, got " +
                          detail::shortest(tolerance));
+}
+
+/// Moments from rest at times that the steps to the last one resolve, in the order of `all`, with their whole errors.
+Refined moments_from_rest(const TransportProblem& problem, std::span<const double> times, double tolerance,
+                          std::size_t levels, const Progress& progress) {
+  // The changes of one figure may vanish by chance; those shortly before do not as well.
+  constexpr double nearby[] = {1, 0.85, 0.7};
+  const auto [step, steps] = problem.steps_to(times.back());
+  const TransportProblem::Window window = window_from_rest(problem, step, steps, progress);
+  const auto count = static_cast<Eigen::Index>(5 * times.size());
+  Accuracy accuracy{.tolerance = tolerance, .judged = {}, .levels = levels};
+  for (Eigen::Index end = 3 * count; end > 0; end -= count)
+    accuracy.judged.insert(accuracy.judged.end(), {end - 4, end - 1});
+  Refined refined = refine(problem, window, step, accuracy, [&, first = step, last = steps](const Chain& chain) {
+    const auto parts = static_cast<std::size_t>(std::lround(first / chain.step()));
+    const std::vector<MotionMoments> history = history_from_rest(chain, last * parts, progress);
+    Figures figures(3 * count);
+    Eigen::Index at = 0;
+    for (const double part : nearby)
+      for (const double time : times)
+        for (const auto figure : all) figures[at++] = between(history, figure, part * time / chain.step());
+    return figures;
+  });
+  Figures error = Figures::Zero(count);
+  for (Eigen::Index k = 0; k < 3 * count; k += 5) {
+    const auto scales = [&](Eigen::Index first) {
+      const double xx = std::max(refined.value[first + 1], 0.0), vv = std::max(refined.value[first + 4], 0.0);
+      return std::array{std::sqrt(xx), xx, std::sqrt(xx * vv), std::sqrt(vv), vv};
+    };
+    const Eigen::Index to = k % count;
+    const auto there = scales(k), here = scales(to);
+    for (std::size_t i = 0; i < 5; ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      const double ratio = k == to ? 1 : there[i] > 0 ? here[i] / there[i] : 0;
+      error[to + at] = std::max(error[to + at], refined.whole_error(k + at) * ratio);
+    }
+  }
+  refined.value.conservativeResize(count);
+  refined.error = error;
+  refined.lattice = Figures::Zero(count);
+  return refined;
 }
 
 TransportStationary stationary_estimates(const TransportProblem& problem, double tolerance, bool with_rest,
@@ -277,45 +320,41 @@ TransportPrediction Transport::predict(const AnySlider& slider, const TransportE
   Moments moments = detail::moments_at(times);
   moments.remark = remark_of(excitation);
   const TransportProblem problem(slider, excitation);
-  const double last = times.empty() ? 0 : times.back();
-  const auto [step, steps] = problem.steps_to(last);
-  const TransportProblem::Window window = window_from_rest(problem, step, steps, progress);
-  const std::size_t count = times.size();
-  const auto compute = [&](const Chain& chain) {
-    Figures figures = Figures::Zero(static_cast<Eigen::Index>(5 * count));
-    const auto parts = static_cast<std::size_t>(std::lround(step / chain.step()));
-    const std::vector<MotionMoments> history = history_from_rest(chain, steps * parts, progress);
-    for (std::size_t k = 0; k < count && last > 0; ++k)
-      for (std::size_t i = 0; i < 5; ++i)
-        figures[static_cast<Eigen::Index>(5 * k + i)] = between(history, all[i], times[k] / chain.step());
-    return figures;
-  };
-  const auto end = static_cast<Eigen::Index>(5 * count);
-  std::vector<Eigen::Index> judged;
-  if (last > 0) judged = {end - 4, end - 1};
-  const Refined refined = refine(problem, window, step, {.tolerance = tolerance_, .judged = judged}, compute);
-  Estimates Moments::*const estimates[] = {&Moments::displacement_mean, &Moments::displacement_variance,
-                                           &Moments::covariance, &Moments::velocity_mean, &Moments::velocity_variance};
-  for (std::size_t k = 0; k < count; ++k)
-    for (std::size_t i = 0; i < 5; ++i) {
-      const auto at = static_cast<Eigen::Index>(5 * k + i);
-      (moments.*estimates[i]).value[k] = refined.value[at];
-      (moments.*estimates[i]).error[k] = refined.whole_error(at);
+  constexpr Estimates Moments::*const estimates[] = {&Moments::displacement_mean, &Moments::displacement_variance,
+                                                     &Moments::covariance, &Moments::velocity_mean,
+                                                     &Moments::velocity_variance};
+  TransportCost cost;
+  // Times that the steps to the last one resolve, then those before with shorter steps.
+  std::size_t levels = 4;
+  for (std::size_t end = times.size(), begin = end; end > 0 && times[end - 1] > 0; end = begin) {
+    const auto [step, steps] = problem.steps_to(times[end - 1]);
+    while (begin > 0 && times[begin - 1] >= problem.earliest(step)) --begin;
+    const bool late = end == times.size();
+    const Refined refined = moments_from_rest(problem, times.subspan(begin, end - begin), tolerance_, levels, progress);
+    for (std::size_t k = begin; k < end; ++k)
+      for (std::size_t i = 0; i < 5; ++i) {
+        const auto at = static_cast<Eigen::Index>(5 * (k - begin) + i);
+        (moments.*estimates[i]).value[k] = refined.value[at];
+        (moments.*estimates[i]).error[k] = refined.error[at];
+      }
+    if (!late) continue;
+    cost.nodes = refined.nodes, cost.steps = steps, levels = refined.levels;
+    const Eigen::Index last = refined.value.size();
+    if (!problem.pulses()) {
+      require_accuracy(refined, tolerance_, last - 4, "the variance of the displacement at the last time");
+      require_accuracy(refined, tolerance_, last - 1, "the variance of the velocity at the last time");
     }
+  }
   for (const std::size_t variance : {1U, 4U})  // where it is far below its error, interpolation can leave less than 0
     for (double& value : (moments.*estimates[variance]).value) value = std::max(value, 0.0);
-  constexpr const char* nouns[] = {"the variance of the displacement at the last time",
-                                   "the variance of the velocity at the last time"};
-  for (std::size_t i = 0; i < judged.size() && !problem.pulses(); ++i)
-    require_accuracy(refined, tolerance_, judged[i], nouns[i]);
   // With the step of the stationary motion: to a short time steps are short.
   if (problem.wanders())
     moments.growth_rate = {std::numeric_limits<double>::quiet_NaN(), 0};
   else
     moments.growth_rate =
         problem.sprung() ? Estimate{0, 0} : stationary_estimates(problem, tolerance_, false, progress).growth_rate;
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  return {std::move(moments), {refined.nodes, steps, seconds}, *this, slider, excitation};
+  cost.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  return {std::move(moments), cost, *this, slider, excitation};
 }
 
 TransportPrediction::TransportPrediction(Moments moments, const TransportCost& cost, const Transport& theory,
