@@ -195,7 +195,8 @@ class Transport {
   /// @param slider  positive levels, which may differ, the backward one also infinite; spring and damper optional.
   ///                Without a spring a caster's growth rate is NaN
   /// @param excitation  noise, stationary from time zero on, or pulses
-  /// @param times   [s], finite, at least 0, increasing
+  /// @param times   [s], finite, at least 0, increasing; under pulses 0 or at least 2 half widths, with
+  ///                `stationary_start` 3
   /// @param progress  called regularly; may throw to stop the work; optional
   /// @throws std::invalid_argument naming what is not covered or the rejected value
   /// @throws ConvergenceError  the tolerance is not reached within the largest grid; names the best value and its

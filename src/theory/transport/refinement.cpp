@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "stickslip/error.hpp"
@@ -98,6 +99,10 @@ TransportProblem::Window TransportProblem::free_window(double time) const noexce
 TransportProblem::Steps TransportProblem::steps_to(double time) const {
   const double step = first_step();
   if (!(time > 0)) return {step, 0};
+  require(time >= earliest(step) || !pulses_,
+          "Transport: a time under pulses must be 0 or at least " + shortest(earliest(step)) +
+              " s, before which pulses do not overlap as they do on the lattice; it",
+          time, "s");
   const double count = fixed_step() ? std::ceil(time / step - 1e-9) : std::max(least_steps(), std::ceil(time / step));
   require(count < 1e6, "Transport: the last time must be less than a million steps, of " + shortest(step) + " s; it",
           time, "s");
@@ -163,12 +168,28 @@ double TransportProblem::error_of_one_slot() const {
   return 0.2 * std::pow(std::min(1.0, motion_.least_hold() / pulses_->arrivals.sigma), 1.5);
 }
 
+double TransportProblem::error_of_start(double time) const {
+  if (!pulses_ || !pulses_->stationary || can_halve_slots(with_displacement())) return 0;
+  return 0.7 * pulses_->half_width / time;
+}
+
 LoadGrid TransportProblem::batches(double step, std::size_t fineness) const {
   const auto [spacing, reach, slots, arriving] = lattice(step, fineness);
   const double none = std::exp(-arriving);
-  pulse_chain::Weights batch = pulses_->arrivals.batch(step / pulses_->half_width, spacing, reach);
-  batch[0] -= none;
-  return {batch, none, slots, pulses_->stationary};
+  const auto weights = [&, spacing = spacing, reach = reach](pulse_chain::Arrivals arrivals) {
+    pulse_chain::Weights batch = arrivals.batch(step / pulses_->half_width, spacing, reach);
+    batch[0] -= none;
+    return batch;
+  };
+  std::optional<pulse_chain::Weights> past;
+  if (pulses_->stationary) {
+    // What is left of those that began before the start must move a free mass as in continuous time, where they began
+    // between the nodes of the lattice: with half the slots that is part of the change.
+    pulse_chain::Arrivals before = pulses_->arrivals;
+    if (!can_halve_slots(with_displacement())) before.sigma *= std::sqrt(2.0 / 3);
+    past = weights(before);
+  }
+  return {weights(pulses_->arrivals), none, slots, past};
 }
 
 Chain TransportProblem::chain(double step, std::size_t fineness, const Window& window, double wall) const {

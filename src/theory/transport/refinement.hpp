@@ -38,6 +38,8 @@ class TransportProblem {
   bool can_halve_slots(bool with_x) const;
   /// A bound of the relative error of one slot, measured: docs/transport.md.
   double error_of_one_slot() const;
+  /// A bound of the relative error of displacements, if pulses that began before the start are on one slot.
+  double error_of_start(double time) const;
 
   /// How long each value of the noise is held [s]; 0 for continuous noise.
   double held() const noexcept { return held_; }
@@ -70,8 +72,10 @@ class TransportProblem {
   /// @throws std::invalid_argument for a million steps and more
   Steps steps_to(double time) const;
 
-  /// The earliest time [s] that such steps resolve; before it, steps must be shorter.
-  double earliest(double step) const noexcept { return fixed_step() ? 0 : least_steps() / 3 * step; }
+  /// The earliest time [s] that such steps resolve; before it, steps must be shorter, and under pulses there are none.
+  double earliest(double step) const noexcept {
+    return pulses_ ? (pulses_->stationary ? 3 : 2) * step : held_ > 0 ? 0 : least_steps() / 3 * step;
+  }
 
  private:
   double ground_velocity() const noexcept;

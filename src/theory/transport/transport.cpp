@@ -165,6 +165,11 @@ Refined moments_from_rest(const TransportProblem& problem, std::span<const doubl
     }
   }
   refined.value.conservativeResize(count);
+  for (std::size_t k = 0; k < times.size(); ++k)
+    for (Eigen::Index at = 0; at < 3; ++at) {
+      const Eigen::Index i = static_cast<Eigen::Index>(5 * k) + at;
+      error[i] += problem.error_of_start(times[k]) * std::abs(refined.value[i]);
+    }
   refined.error = error;
   refined.lattice = Figures::Zero(count);
   return refined;
