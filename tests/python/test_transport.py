@@ -191,6 +191,16 @@ def test_a_caster_under_white_noise_is_that_of_simulation():
         assert np.all(np.abs(getattr(p, name) - getattr(e, name)[1:]) <= error)
 
 
+def test_a_caster_of_short_reach_is_not_free_of_friction():
+    # docs/errata.md, after (3.51): a free mass has E[x^2] = 2 pi S0 t^3 / 3.
+    times = np.array([5.0, 10.0, 20.0])
+    for gamma, shown in ((0.05, [0.40, 0.33, 0.33]), (0.1, [0.44, 0.42, 0.48])):
+        cart = ss.Caster(slip_level=1.0, reach=1 / gamma)
+        p = theory.Transport().predict(cart, 1.0, times)
+        free = 2 * math.pi * times**3 / 3
+        assert p.displacement_variance / free == pytest.approx(shown, abs=0.01)
+
+
 def pulses(rate, sigma, duration=20.0):
     return ss.PoissonPulses(rate=rate, half_width=1.0, sigma=sigma, duration=duration)
 
