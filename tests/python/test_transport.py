@@ -201,6 +201,16 @@ def test_a_caster_of_short_reach_is_not_free_of_friction():
         assert p.displacement_variance / free == pytest.approx(shown, abs=0.01)
 
 
+def test_the_upper_cutoff_matters_for_bands_away_from_zero():
+    # docs/errata.md, 4.3: the velocity of the linearized block over the width of the band.
+    def rms(low, width):
+        band = ss.Spectrum.band_pass(s0=1.0, low=low, high=low + width)
+        return theory.StationaryLinearization().predict(BLOCK, band).velocity_std
+
+    for low, shown in ((0.02, 1.36), (0.1, 1.43), (0.5, 1.78), (1.0, 2.13), (2.0, 2.68)):
+        assert rms(low, 20) / rms(low, 2 / math.pi) == pytest.approx(shown, abs=0.006)
+
+
 def pulses(rate, sigma, duration=20.0):
     return ss.PoissonPulses(rate=rate, half_width=1.0, sigma=sigma, duration=duration)
 
