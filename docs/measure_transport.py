@@ -291,6 +291,122 @@ def drift_rows(members: int) -> Iterator[list[str]]:
         ]
 
 
+WHITE_RATIOS = [1, 1.1, 1.5, 2, 3, 5, 8, 10, math.inf]  # of the levels
+WHITE_TIMES = np.geomspace(0.1, 3000, 10)  # S0 / a^2
+WHITE_TOLERANCES = [0.03, 0.01, 1e-3, 1e-4]
+MOMENTS = [
+    "displacement_mean",
+    "displacement_variance",
+    "covariance",
+    "velocity_mean",
+    "velocity_variance",
+]
+
+
+def part_of_stated(value: float, exact: float, stated: float) -> float:
+    """The error over the stated one."""
+    return abs(value - exact) / stated
+
+
+def white_errors(ratio: float, tolerance: float) -> tuple[list[float], float]:
+    """Errors of moments under white noise over those stated, and that of the growth rate."""
+    block = ss.Coulomb(slip_level=1.0, backward=ratio)
+    exact = ss.theory.WhiteNoise(block, 1.0)
+    moments = exact.predict(WHITE_TIMES)
+    p = ss.theory.Transport(tolerance=tolerance).predict(block, 1.0, WHITE_TIMES)
+    parts = [
+        part_of_stated(*each)
+        for name in MOMENTS
+        if ratio != 1 or "mean" not in name
+        for each in zip(getattr(p, name), getattr(moments, name), getattr(p.error, name))
+    ]
+    return parts, part_of_stated(p.growth_rate.value, exact.growth_rate, p.growth_rate.error)
+
+
+def white_row(tolerance: float) -> list[str]:
+    """Of all level ratios: how many errors are within those stated, and the median of their
+    ratios."""
+    found = [white_errors(ratio, tolerance) for ratio in WHITE_RATIOS]
+    moments = [part for parts, _ in found for part in parts]
+    growths = [growth for _, growth in found]
+    return [f"{tolerance:g}", *counted(moments), *counted(growths)]
+
+
+def counted(parts: list[float]) -> list[str]:
+    within = sum(part <= 1 for part in parts)
+    return [f"{within} of {len(parts)}", f"{np.median(parts):.2f}"]
+
+
+#: Laws of the speed, in units of a level and a speed, with the resistance as a function of the
+#: speed.
+SPEED_LAWS: dict[str, tuple[ss.Slider, Callable[[Any], Any]]] = {
+    "damper": (ss.Slider(ss.Coulomb(slip_level=1.0), damping=0.3), lambda v: 1 + 0.3 * v),
+    "hardening": (
+        ss.Slider(ss.VelocityDependent(slow=0.5, fast=1.0, rate=2.0)),
+        lambda v: 1 - 0.5 * np.exp(-2 * v),
+    ),
+    "weakening": (
+        ss.Slider(ss.VelocityDependent(slow=1.0, fast=0.5, rate=2.0)),
+        lambda v: 0.5 + 0.5 * np.exp(-2 * v),
+    ),
+    "Stribeck, exponent 1": (
+        ss.Slider(ss.Stribeck(static=1.3, kinetic=0.8, velocity=0.3, exponent=1)),
+        lambda v: 0.8 + 0.5 * np.exp(-v / 0.3),
+    ),
+    "Stribeck, exponent 2": (
+        ss.Slider(ss.Stribeck(static=1.5, kinetic=1.0, velocity=0.5, exponent=2)),
+        lambda v: 1 + 0.5 * np.exp(-((v / 0.5) ** 2)),
+    ),
+}
+SPEED_LEVELS = [0.05, 0.3, 2.0]  # S0
+
+
+def exact_of_speed(resistance: Callable[[Any], Any], s0: float) -> tuple[float, float]:
+    """Velocity variance and growth rate under white noise of a block whose friction depends on
+    the speed: with D = pi S0, the density is p(v) ~ exp(-U(v) / D), where U' is the resistance, and
+    R = 4 int F^2 / (D p) dv over v > 0, where F(v) = int_v^inf u p(u) du."""
+    d, last = math.pi * s0, 1.0
+    while (u := potential(resistance, np.linspace(0, last, 2001)))[-1] < 60 * d:
+        last *= 1.3
+    v = np.linspace(0, last, 200_001)
+    u = potential(resistance, v)
+    step = v[1]
+    weight = np.exp(-u / d)
+    p = weight / (2 * step * (np.sum(weight) - weight[0] / 2))
+    moment = v * p
+    after = np.cumsum(((moment[1:] + moment[:-1]) / 2)[::-1])[::-1] * step
+    ratio = np.append(after, 0.0) ** 2 / (d * p)
+    growth = 4 * step * (np.sum(ratio) - ratio[0] / 2)
+    return float(2 * step * np.sum(v * v * p)), float(growth)
+
+
+def potential(resistance: Callable[[Any], Any], v: np.ndarray) -> np.ndarray:
+    middle = resistance((v[1:] + v[:-1]) / 2)
+    ends = resistance(v)
+    return np.append(0.0, np.cumsum((ends[1:] + ends[:-1] + 4 * middle) / 6 * v[1]))
+
+
+def speed_row(name: str) -> list[str]:
+    """Of a law and all levels of the noise and tolerances: as `white_row`."""
+    slider, resistance = SPEED_LAWS[name]
+    parts: list[list[float]] = [[], []]
+    for s0 in SPEED_LEVELS:
+        exact = exact_of_speed(resistance, s0)
+        for tolerance in WHITE_TOLERANCES[1:]:
+            p = ss.theory.Transport(tolerance=tolerance).stationary(slider, s0)
+            for found, value, one in zip((p.velocity_variance, p.growth_rate), exact, parts):
+                one.append(part_of_stated(found.value, value, found.error))
+    return [name, *counted(parts[0]), *counted(parts[1])]
+
+
+WHITE_HEADING = (
+    "| tolerance | moments within the stated error | median of error / stated |"
+    " growth rates within | median |"
+)
+SPEED_HEADING = (
+    "| law | velocity variances within the stated error | median of error / stated |"
+    " growth rates within | median |"
+)
 CASTER_HEADING = "| gamma | z = 1 at | power of gamma from the line above | by (3.51) |"
 DRIFT_HEADING = "| rms / a | mean velocity, theory | simulation |"
 OTHER_HEADING = (
@@ -338,6 +454,8 @@ def main(members: int) -> None:
         return row(setting, many, tolerance=0.03)
 
     tables = [
+        table(WHITE_HEADING, shown(map(white_row, WHITE_TOLERANCES))),
+        table(SPEED_HEADING, shown(map(speed_row, SPEED_LAWS))),
         table(HEADING, shown(row(setting, members)[0] for setting in TABLE)),
         coverage(COVERAGE, drawn, loosely, few),
         table(OTHER_HEADING, shown(others)),

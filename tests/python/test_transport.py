@@ -80,7 +80,7 @@ def test_the_distribution_is_that_of_simulation():
     for slider in (ss.Slider(BLOCK), ss.Slider(BLOCK, natural_frequency=0.5)):
         p = theory.Transport(tolerance=0.05).predict(slider, GROUND, [time])
         d = p.displacement(time)
-        assert d.atom == 0
+        assert d.atom < 1e-9
         assert d.error < 0.05
         assert d.cdf(0.0) == pytest.approx(0.5, abs=1e-6)
         assert d.variance == pytest.approx(p.displacement_variance[0], rel=0.02)
@@ -91,6 +91,29 @@ def test_the_distribution_is_that_of_simulation():
         for at in np.array([-1.5, -0.5, -0.1, 0.2, 1.0]) * math.sqrt(d.variance):
             found, said = np.mean(x <= at), d.cdf(at)
             assert abs(found - said) < d.error + 0.01 + 4.5 * math.sqrt(said * (1 - said) / members)
+
+
+@pytest.mark.slow
+def test_what_never_slipped_is_an_atom_of_the_distribution():
+    # Weak shaking, of which 43 % of the blocks notice nothing (48 % with samples 0.02 apart, whose
+    # noise exceeds the level less often by some sqrt(dt)). Beyond the resolution each probability
+    # is within the stated error and 4.5 standard errors: one false alarm in 150,000 for each.
+    ground = ss.Spectrum.kanai_tajimi(s0=0.25 / (2 * math.pi), frequency=1.0, damping=0.5)
+    time, members = 5.0, 20_000
+    shaking = excitation(ground, dt=0.02, samples=251, period=8192)
+    p = theory.Transport().predict(BLOCK, ground, [time])
+    d = p.displacement(time)
+    e = ss.run_ensemble(BLOCK, shaking, members=members, seed=3, dt=time / 2)
+    assert 0.75 < d.atom / np.mean(e.peak == 0) < 1
+    assert d.error < 0.06
+    assert d.quantile(0.5) == 0
+    assert p.peak(time).quantile(0.3).value == 0
+    assert d.variance == pytest.approx(p.displacement_variance[0], rel=0.03)
+    rms = math.sqrt(p.displacement_variance[0])
+    assert 0 < d.resolution < 0.6 * rms
+    for x in np.array([-2.0, -1.0, -0.6, 0.6, 1.0, 2.0]) * rms:
+        said, found = d.cdf(x), np.mean(e.residual <= x)
+        assert abs(said - found) <= d.error + 4.5 * math.sqrt(found * (1 - found) / members)
 
 
 @pytest.mark.slow
@@ -168,6 +191,26 @@ def test_a_caster_under_white_noise_is_that_of_simulation():
         assert np.all(np.abs(getattr(p, name) - getattr(e, name)[1:]) <= error)
 
 
+def test_a_caster_of_short_reach_is_not_free_of_friction():
+    # docs/errata.md, after (3.51): a free mass has E[x^2] = 2 pi S0 t^3 / 3.
+    times = np.array([5.0, 10.0, 20.0])
+    for gamma, shown in ((0.05, [0.40, 0.33, 0.33]), (0.1, [0.44, 0.42, 0.48])):
+        cart = ss.Caster(slip_level=1.0, reach=1 / gamma)
+        p = theory.Transport().predict(cart, 1.0, times)
+        free = 2 * math.pi * times**3 / 3
+        assert p.displacement_variance / free == pytest.approx(shown, abs=0.01)
+
+
+def test_the_upper_cutoff_matters_for_bands_away_from_zero():
+    # docs/errata.md, 4.3: the velocity of the linearized block over the width of the band.
+    def rms(low, width):
+        band = ss.Spectrum.band_pass(s0=1.0, low=low, high=low + width)
+        return theory.StationaryLinearization().predict(BLOCK, band).velocity_std
+
+    for low, shown in ((0.02, 1.36), (0.1, 1.43), (0.5, 1.78), (1.0, 2.13), (2.0, 2.68)):
+        assert rms(low, 20) / rms(low, 2 / math.pi) == pytest.approx(shown, abs=0.006)
+
+
 def pulses(rate, sigma, duration=20.0):
     return ss.PoissonPulses(rate=rate, half_width=1.0, sigma=sigma, duration=duration)
 
@@ -200,6 +243,26 @@ def test_moments_under_pulses_are_those_of_simulation(slider, rate, sigma, seed)
         if name == "displacement_variance":
             assert np.all(error < 0.16 * said)
     assert "lattice of times" in p.remark
+
+
+@pytest.mark.parametrize("running", [False, True], ids=["from rest", "stationary"])
+@pytest.mark.parametrize(("rate", "sigma"), [(2.0, 1.0), (0.1, 3.0), (1.0, 4.0)])
+def test_moments_soon_after_the_start_under_pulses_are_those_of_simulation(rate, sigma, running):
+    # Two slots of the lattice and one; times within slots. The stated error and four standard
+    # errors: 6 settings of at most 34 values with a false alarm in 16,000 each, were the seed not
+    # fixed.
+    shaking = ss.PoissonPulses(
+        rate=rate, half_width=1.0, sigma=sigma, duration=6.0, stationary_start=running
+    )
+    first = 12 if running else 8
+    times = np.arange(first, 25) * 0.25
+    p = theory.Transport().predict(BLOCK, shaking, times)
+    e = ss.run_ensemble(BLOCK, shaking, members=100_000, seed=5, dt=0.25)
+    for name in ("displacement_variance", "velocity_variance"):
+        found, scatter = getattr(e, name)[first:], getattr(e, name + "_error")[first:]
+        assert np.all(abs(getattr(p, name) - found) <= getattr(p.error, name) + 4 * scatter), name
+    with pytest.raises(ValueError, match=f"must be 0 or at least {first // 4} s"):
+        theory.Transport().predict(BLOCK, shaking, [times[0] - 0.25, 6.0])
 
 
 @pytest.mark.slow

@@ -106,7 +106,7 @@ TEST_CASE("loads of pulses have the moments of a compound Poisson process") {
     const double slot = 1.0 / static_cast<double>(slots), none = std::exp(-rate * slot);
     detail::pulse_chain::Weights batch = detail::pulse_chain::Arrivals{rate, sigma}.batch(slot, 0.8 * sigma, 16);
     batch[0] -= none;
-    const detail::LoadGrid grid(batch, none, slots, true);
+    const detail::LoadGrid grid(batch, none, slots, batch);
     double second = 0, fourth = 0, sum = 0;
     for (std::size_t i = 0; i < grid.loads(); ++i) {
       const double weight = grid.weight(i, grid.start().data()), n = grid.load(i);
@@ -187,6 +187,20 @@ TEST_CASE("unequal and one-way levels under white noise drift as they must") {
       CHECK(found.displacement_variance.value[k] == Approx(expected.displacement_variance.value[k]).epsilon(0.01));
       CHECK(found.velocity_variance.value[k] == Approx(expected.velocity_variance.value[k]).epsilon(0.01));
     }
+  }
+}
+
+TEST_CASE("moments long after the start keep the exact growth, and early ones their errors") {
+  for (const double backward : {1.0, 2.0}) {
+    const std::vector<double> times{0.1, 1, 3000};
+    const Moments exact = theory::WhiteNoise(Coulomb(1.0, backward), 1.0).predict(times);
+    const auto found = Transport(1e-4).predict(Slider(Coulomb(1.0, backward)), 1.0, times);
+    for (Estimates Moments::*const figure : {&Moments::displacement_variance, &Moments::covariance})
+      for (const std::size_t k : {0U, 1U, 2U}) {
+        const Estimates &is = found.*figure, &must_be = exact.*figure;
+        CHECK(is.value[k] == Approx(must_be.value[k]).epsilon(1e-5));
+        CHECK(std::abs(is.value[k] - must_be.value[k]) <= is.error[k]);
+      }
   }
 }
 
@@ -368,6 +382,10 @@ TEST_CASE("what is not covered is refused with the reason") {
              Contains("times the half width of a pulse must be at most 3, got 4"));
   CHECK_THAT(why(sticky, pulses), Contains("static friction above kinetic under noise"));
   CHECK_THAT(why(Slider(Caster(1.0, 10.0)), pulses), Contains("casters under white noise alone"));
+  const std::vector<double> early{0, 1.9, 4};
+  CHECK_THROWS_WITH(theory.predict(block, pulses, early),
+                    Contains("must be 0 or at least 2 s") && Contains("got 1.9 s"));
+  CHECK_THROWS_WITH(theory.displacement(block, pulses, 1.5), Contains("must be 0 or at least 2 s"));
   CHECK_THROWS_WITH(Transport(0.5), Contains("tolerance must be from 1e-6 to 0.3, got 0.5"));
   CHECK_THROWS_WITH(theory.predict(block, 1.0, std::vector<double>{2, 1}), Contains("times must increase"));
 }

@@ -107,7 +107,8 @@ Eigen::Matrix2d FilterStates::transition(double step) const {
 
 LoadGrid::LoadGrid(double deviation) : deviation_(deviation) {}
 
-LoadGrid::LoadGrid(const pulse_chain::Weights& batch, double none, std::size_t slots, bool stationary)
+LoadGrid::LoadGrid(const pulse_chain::Weights& batch, double none, std::size_t slots,
+                   const std::optional<pulse_chain::Weights>& past_batch)
     : spacing_(batch.spacing) {
   // A state is a number whose digits are the last batches, newest first: amplitudes from the least on, or `empty`.
   // After a step under the load n the amplitude of the batch that has gone is `sum - n`, where `sum` is the load
@@ -120,13 +121,13 @@ LoadGrid::LoadGrid(const pulse_chain::Weights& batch, double none, std::size_t s
   for (int i = 0; i < past; ++i) count *= base;
   std::vector<int> sums(count), newest(count);
   std::vector<std::size_t> opposite(count);
-  std::vector<double> chances(count, 1);
+  std::vector<double> chances(count, 1);  // of the start
   for (std::size_t code = 0; code < count; ++code) {
     std::size_t left = code, digit = 1;
     for (int i = past - 1; i >= 0; --i, left /= base, digit *= base) {
       const int is = static_cast<int>(left % base);
       sums[code] += i < static_cast<int>(slots) ? amplitude(is) : -amplitude(is);
-      chances[code] *= chance(is);
+      if (past_batch) chances[code] *= is == empty ? none : (*past_batch)[is - reach];
       newest[code] = is;
       opposite[code] += digit * static_cast<std::size_t>(is == empty ? empty : 2 * reach - is);
     }
@@ -163,7 +164,7 @@ LoadGrid::LoadGrid(const pulse_chain::Weights& batch, double none, std::size_t s
   loads_.push_back({0, {rank[calm], 1}, loads_.size()});
   moves_.push_back({{static_cast<std::uint32_t>(rank[calm]), 0, none}});
   start_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count));
-  if (!stationary)
+  if (!past_batch)
     start_[static_cast<Eigen::Index>(rank[calm])] = 1;
   else
     for (std::size_t code = 0; code < count; ++code) start_[static_cast<Eigen::Index>(rank[code])] = chances[code];

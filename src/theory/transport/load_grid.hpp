@@ -59,11 +59,12 @@ class LoadGrid {
   explicit LoadGrid(double deviation);
 
   /// Pulses of two equal steps, up and down.
-  /// @param batch       weights of the sums of the amplitudes that begin with a step, if any do [m/s^2]
-  /// @param none        probability that none does
-  /// @param slots       steps to a half width
-  /// @param stationary  whether pulses began before the start
-  LoadGrid(const pulse_chain::Weights& batch, double none, std::size_t slots, bool stationary);
+  /// @param batch  weights of the sums of the amplitudes that begin with a step, if any do [m/s^2]
+  /// @param none   probability that none does
+  /// @param slots  steps to a half width
+  /// @param past   as `batch`, of those that began before the start; none did if it is empty
+  LoadGrid(const pulse_chain::Weights& batch, double none, std::size_t slots,
+           const std::optional<pulse_chain::Weights>& past);
 
   bool white() const noexcept { return deviation_ > 0; }
   bool pulses() const noexcept { return spacing_ > 0; }

@@ -37,31 +37,33 @@ std::vector<MotionMoments> history_from_rest(const Chain& chain, std::size_t ste
   const Parity other = chain.mirrored() ? Parity::odd : Parity::even;
   std::vector<MotionMoments> found(1);
   found.reserve(steps + 1);
-  Vector p = chain.start(), q = Vector::Zero(p.size());  // p times x
+  Vector p = chain.start(), q = Vector::Zero(p.size());  // p times the displacement less its mean
   double x = 0, xx = 0;
   MotionMoments growth;
   const double still = chain.pulses() ? 1e-5 : 1e-7;  // their lattice errs by percents
   while (found.size() <= steps) {
     if (progress) progress();
-    const Chain::Means now = chain.seen(p);
-    MotionMoments next{now.x, now.xx, now.xv, now.v, now.vv};
+    Chain::Means now = chain.seen(p), end = chain.end(p);
+    if (chain.mirrored()) now.x = now.v = end.x = 0;
+    MotionMoments next{x + now.x, xx + now.xx - now.x * now.x, now.xv - now.x * now.v, now.v, now.vv - now.v * now.v};
     if (!chain.with_displacement()) {
-      const Chain::Means by_x = chain.seen(q), end = chain.end(p);
-      next = {x + now.x, xx + now.xx + 2 * by_x.x, now.xv + by_x.v, now.v, now.vv};
-      x += end.x, xx += end.xx + 2 * chain.end(q).x;
-      q = chain.carry(q, p, 0, other);
+      const Chain::Means by_x = chain.seen(q);
+      next.xx += 2 * by_x.x;
+      next.xv += by_x.v;
+      x += end.x, xx += end.xx - end.x * end.x + 2 * chain.end(q).x;
+      q = chain.carry(q, p, end.x, other);
     }
-    if (chain.mirrored()) next.x = next.v = 0;
-    next.xx -= next.x * next.x, next.xv -= next.x * next.v, next.vv -= next.v * next.v;
     const Vector carried = chain.carry(p);
     const double change = (carried - p).lpNorm<1>();
     p = carried;
     const MotionMoments& last = found.back();
     const MotionMoments grown{next.x - last.x, next.xx - last.xx, next.xv - last.xv, next.v - last.v,
                               next.vv - last.vv};
+    // What remains of a slow decay is its change in a step times the steps that it takes; it has taken more so far.
+    const auto remaining = [&](double in_step) { return in_step * static_cast<double>(found.size()); };
+    const bool even = remaining(change) < still && remaining(std::abs(grown.xx - growth.xx)) <=
+                                                       still * std::abs(chain.with_displacement() ? next.xx : grown.xx);
     found.push_back(next);
-    const bool even = change < still && std::abs(grown.xx - growth.xx) <=
-                                            still * std::abs(chain.with_displacement() ? next.xx : grown.xx);
     growth = grown;
     if (!even) continue;
     while (found.size() <= steps) {

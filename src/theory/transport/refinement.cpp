@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "stickslip/error.hpp"
@@ -67,6 +68,10 @@ double TransportProblem::level() const noexcept {
   return std::min(motion_.start(Direction::forward), motion_.start(Direction::backward));
 }
 
+double TransportProblem::levels_apart() const noexcept {
+  return std::max(motion_.start(Direction::forward), motion_.start(Direction::backward)) / level();
+}
+
 double TransportProblem::first_step() const noexcept {
   if (held_ > 0) return held_;
   if (pulses_) return pulses_->half_width;
@@ -94,11 +99,54 @@ TransportProblem::Window TransportProblem::free_window(double time) const noexce
 TransportProblem::Steps TransportProblem::steps_to(double time) const {
   const double step = first_step();
   if (!(time > 0)) return {step, 0};
-  const double count =
-      held_ > 0 || pulses_ ? std::ceil(time / step - 1e-9) : std::max(white() ? 24.0 : 8.0, std::ceil(time / step));
+  require(time >= earliest(step) || !pulses_,
+          "Transport: a time under pulses must be 0 or at least " + shortest(earliest(step)) +
+              " s, before which pulses do not overlap as they do on the lattice; it",
+          time, "s");
+  const double count = fixed_step() ? std::ceil(time / step - 1e-9) : std::max(least_steps(), std::ceil(time / step));
   require(count < 1e6, "Transport: the last time must be less than a million steps, of " + shortest(step) + " s; it",
           time, "s");
-  return {held_ > 0 || pulses_ ? step : time / count, static_cast<std::size_t>(count)};
+  return {fixed_step() ? step : time / count, static_cast<std::size_t>(count)};
+}
+
+Estimate TransportProblem::resting(double time) const {
+  const double forward = motion_.hold(Direction::forward), backward = motion_.hold(Direction::backward);
+  if (pulses_ || (white() && !(held_ > 0))) return {0, 0};
+  if (white()) {
+    const double unit = std::sqrt(4 * pi * s0_ / held_);  // root 2 times the rms
+    const double within = (std::erf(forward / unit) + std::erf(backward / unit)) / 2;
+    return {std::pow(within, std::ceil(time / held_ - 1e-9)), 0};
+  }
+  // The noise at the middle of each step stays within the levels, lowered as in `chain`.
+  const double lowering = 0.5826 * filtered_->roughness, farthest = 4.5 * filtered_->rms;
+  const double least = std::max(24.0, 4 * time / first_step());
+  const double count = std::ceil(std::max(least, time * std::pow(4 * lowering / motion_.least_hold(), 2)));
+  if (count > 20 * least) return {0, 0};  // it slips at once
+  const auto after = [&](double steps) {
+    const double step = time / steps, less = lowering * std::sqrt(step);
+    const double low = -std::min(forward - less, farthest), high = std::min(backward - less, farthest);
+    std::vector<double> edges, jumps;
+    if (low > -farthest) edges.push_back(low - farthest), jumps.push_back(low);
+    for (double i = 0; i <= 4; ++i) edges.push_back(low + (high - low) * i / 4);
+    jumps.push_back(edges.back());
+    if (high < farthest) edges.push_back(high + farthest);
+    const LoadGrid load(*filtered_, {edges, 6, jumps}, 13, step);
+    Eigen::VectorXd p = load.start();
+    const auto stay = [&] {
+      for (std::size_t i = 0; i < load.loads(); ++i)
+        if (load.load(i) < low || load.load(i) > high)
+          p.segment(static_cast<Eigen::Index>(load.share(i).first), static_cast<Eigen::Index>(load.share(i).count))
+              .setZero();
+    };
+    stay();
+    for (double k = 1; k < steps; ++k) {
+      p = *load.adjoint_step() * p;
+      stay();
+    }
+    return p.sum();
+  };
+  const double once = after(count), twice = after(2 * count);
+  return {std::clamp(2 * twice - once, 0.0, 1.0), std::abs(twice - once)};
 }
 
 TransportProblem::Slip TransportProblem::strong_pulse(double reach) const {
@@ -160,12 +208,28 @@ double TransportProblem::error_of_one_slot() const {
   return 0.2 * std::pow(std::min(1.0, motion_.least_hold() / pulses_->arrivals.sigma), 1.5);
 }
 
+double TransportProblem::error_of_start(double time) const {
+  if (!pulses_ || !pulses_->stationary || can_halve_slots(with_displacement())) return 0;
+  return 0.7 * pulses_->half_width / time;
+}
+
 LoadGrid TransportProblem::batches(double step, std::size_t fineness) const {
   const auto [spacing, reach, slots, arriving] = lattice(step, fineness);
   const double none = std::exp(-arriving);
-  pulse_chain::Weights batch = pulses_->arrivals.batch(step / pulses_->half_width, spacing, reach);
-  batch[0] -= none;
-  return {batch, none, slots, pulses_->stationary};
+  const auto weights = [&, spacing = spacing, reach = reach](pulse_chain::Arrivals arrivals) {
+    pulse_chain::Weights batch = arrivals.batch(step / pulses_->half_width, spacing, reach);
+    batch[0] -= none;
+    return batch;
+  };
+  std::optional<pulse_chain::Weights> past;
+  if (pulses_->stationary) {
+    // What is left of those that began before the start must move a free mass as in continuous time, where they began
+    // between the nodes of the lattice: with half the slots that is part of the change.
+    pulse_chain::Arrivals before = pulses_->arrivals;
+    if (!can_halve_slots(with_displacement())) before.sigma *= std::sqrt(2.0 / 3);
+    past = weights(before);
+  }
+  return {weights(pulses_->arrivals), none, slots, past};
 }
 
 Chain TransportProblem::chain(double step, std::size_t fineness, const Window& window, double wall) const {
@@ -267,6 +331,9 @@ Refined refine(const TransportProblem& problem, const TransportProblem::Window& 
   if (problem.pulses()) return refine_pulses(problem, window, accuracy, compute, wall);
   constexpr std::size_t most_nodes = 8'000'000;
   const bool one_way = problem.one_way(), breaks_away = problem.motion().breaks_away() && !problem.white();
+  // Under white noise with levels far apart the steps are not yet short for the higher one, and changes are up to
+  // three times too small.
+  const double caution = problem.white() && problem.levels_apart() > 5 ? 3 : 1;
   Refined result;
   std::map<std::pair<std::size_t, std::size_t>, Figures> found;
   const auto with = [&](std::size_t halvings, std::size_t fineness) -> const Figures& {
@@ -286,18 +353,22 @@ Refined refine(const TransportProblem& problem, const TransportProblem::Window& 
     std::size_t first = 0, last = 0;
     if (!(problem.held() > 0))
       first = problem.white() ? 0 : level, last = level + (problem.white() ? (one_way ? 3 : 2) : breaks_away ? 2 : 1);
+    result.levels = level + 1;
     std::vector<Figures> column;
     for (std::size_t k = first; k <= last; ++k) column.push_back(with(k, fineness));
-    Figures before = column.back();
+    Figures before = column.back(), last_change = Figures::Zero(before.size());
+    result.error = last_change;
     for (std::size_t stage = 1; stage <= last - first; ++stage) {
       const double lowest = problem.white() && one_way ? 0.5 : problem.white() || breaks_away ? 1 : 2;
       const double ratio = std::exp2(lowest + 0.5 * static_cast<double>(stage - 1));
       for (std::size_t k = 0; k + stage <= last - first; ++k)
         column[k] = (ratio * column[k + 1] - column[k]) / (ratio - 1);
-      if (stage + 1 == last - first) before = column[1];
+      const Figures& finest = column[last - first - stage];
+      const Figures now = caution * (finest - before).cwiseAbs();
+      result.error = now.cwiseMax(std::exchange(last_change, now) / 2);
+      before = finest;
     }
     result.value = column.front();
-    result.error = (result.value - before).cwiseAbs();
     for (const Eigen::Index i : accuracy.slow) {
       if (last == first) break;
       // Filtered noise crosses a level infinitely often: the error is of the order of the root of the step. Successive

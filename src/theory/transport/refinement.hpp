@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "stickslip/sliding/any_slider.hpp"
+#include "stickslip/statistics/tally.hpp"
 #include "stickslip/theory/transport.hpp"
 #include "theory/transport/chain.hpp"
 #include "theory/transport/held_motion.hpp"
@@ -31,15 +32,23 @@ class TransportProblem {
   /// Whether it cannot slide backward.
   bool one_way() const noexcept { return !std::isfinite(motion_.start(Direction::backward)); }
 
+  /// The higher level at the beginning of a slip over the lower one.
+  double levels_apart() const noexcept;
+
   /// Whether two slots to the half width of a pulse are a chain of moderate size.
   bool can_halve_slots(bool with_x) const;
   /// A bound of the relative error of one slot, measured: docs/transport.md.
   double error_of_one_slot() const;
+  /// A bound of the relative error of displacements, if pulses that began before the start are on one slot.
+  double error_of_start(double time) const;
 
   /// How long each value of the noise is held [s]; 0 for continuous noise.
   double held() const noexcept { return held_; }
   bool white() const noexcept { return s0_ > 0; }
   bool pulses() const noexcept { return pulses_.has_value(); }
+
+  /// The probability that a slider at rest under noise has not slipped by a time [s]. Under pulses 0 is returned.
+  Estimate resting(double time) const;
 
   /// A step with which errors are some percent [s].
   double first_step() const noexcept;
@@ -67,9 +76,17 @@ class TransportProblem {
   /// @throws std::invalid_argument for a million steps and more
   Steps steps_to(double time) const;
 
+  /// The earliest time [s] that such steps resolve; before it, steps must be shorter, and under pulses there are none.
+  double earliest(double step) const noexcept {
+    return pulses_ ? (pulses_->stationary ? 3 : 2) * step : held_ > 0 ? 0 : least_steps() / 3 * step;
+  }
+
  private:
   double ground_velocity() const noexcept;
-  double level() const noexcept;  // the smaller one at the beginning of a slip
+  /// Whether the step is that of held noise or pulses.
+  bool fixed_step() const noexcept { return held_ > 0 || pulses_; }
+  double least_steps() const noexcept { return white() ? 24 : 8; }  // to a time
+  double level() const noexcept;                                    // the smaller one at the beginning of a slip
   Panels velocities(double step, std::size_t degree, double rms, double reach) const;
 
   /// Pulses of two equal steps, up and down.
@@ -115,15 +132,16 @@ struct Accuracy {
 
 struct Refined {
   Figures value, error;
-  Figures lattice{};      ///< a further error, which no grid of this size reduces: that of the lattice of pulses
-  std::size_t nodes = 0;  ///< of the finest grid
+  Figures lattice{};       ///< a further error, which no grid of this size reduces: that of the lattice of pulses
+  std::size_t nodes = 0;   ///< of the finest grid
+  std::size_t levels = 0;  ///< of refinement
 
   bool within(const Accuracy& accuracy) const;
   double whole_error(Eigen::Index i) const { return error[i] + lattice[i]; }
 };
 
-/// The figures as the step goes to zero. Their errors are the last change of the extrapolation, plus the change from
-/// the grid before. Ends at the largest grid, also if the errors are larger than they must be.
+/// The figures as the step goes to zero. Their errors are the last change of the extrapolation or half of the one
+/// before, plus the change from the grid before. Ends at the largest grid, also if the errors are larger than they must be.
 /// @param compute  the figures of a chain
 Refined refine(const TransportProblem& problem, const TransportProblem::Window& window, double first_step,
                const Accuracy& accuracy, const std::function<Figures(const Chain&)>& compute,

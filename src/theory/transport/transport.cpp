@@ -1,6 +1,7 @@
 #include "stickslip/theory/transport.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <complex>
@@ -22,6 +23,7 @@
 namespace stickslip::theory {
 namespace {
 
+using detail::Accuracy;
 using detail::Chain;
 using detail::Figures;
 using detail::MotionMoments;
@@ -125,6 +127,52 @@ void require_accuracy(const Refined& refined, double tolerance, Eigen::Index i, 
                          " with an error of " + detail::shortest(refined.error[i]) + " on the finest grid, of " +
                          std::to_string(refined.nodes) + " nodes; the tolerance must be larger, got " +
                          detail::shortest(tolerance));
+}
+
+/// Moments from rest at times that the steps to the last one resolve, in the order of `all`, with their whole errors.
+Refined moments_from_rest(const TransportProblem& problem, std::span<const double> times, double tolerance,
+                          std::size_t levels, const Progress& progress) {
+  // The changes of one figure may vanish by chance; those shortly before do not as well.
+  constexpr double nearby[] = {1, 0.85, 0.7};
+  const auto [step, steps] = problem.steps_to(times.back());
+  const TransportProblem::Window window = window_from_rest(problem, step, steps, progress);
+  const auto count = static_cast<Eigen::Index>(5 * times.size());
+  Accuracy accuracy{.tolerance = tolerance, .judged = {}, .levels = levels};
+  for (Eigen::Index end = 3 * count; end > 0; end -= count)
+    accuracy.judged.insert(accuracy.judged.end(), {end - 4, end - 1});
+  Refined refined = refine(problem, window, step, accuracy, [&, first = step, last = steps](const Chain& chain) {
+    const auto parts = static_cast<std::size_t>(std::lround(first / chain.step()));
+    const std::vector<MotionMoments> history = history_from_rest(chain, last * parts, progress);
+    Figures figures(3 * count);
+    Eigen::Index at = 0;
+    for (const double part : nearby)
+      for (const double time : times)
+        for (const auto figure : all) figures[at++] = between(history, figure, part * time / chain.step());
+    return figures;
+  });
+  Figures error = Figures::Zero(count);
+  for (Eigen::Index k = 0; k < 3 * count; k += 5) {
+    const auto scales = [&](Eigen::Index first) {
+      const double xx = std::max(refined.value[first + 1], 0.0), vv = std::max(refined.value[first + 4], 0.0);
+      return std::array{std::sqrt(xx), xx, std::sqrt(xx * vv), std::sqrt(vv), vv};
+    };
+    const Eigen::Index to = k % count;
+    const auto there = scales(k), here = scales(to);
+    for (std::size_t i = 0; i < 5; ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      const double ratio = k == to ? 1 : there[i] > 0 ? here[i] / there[i] : 0;
+      error[to + at] = std::max(error[to + at], refined.whole_error(k + at) * ratio);
+    }
+  }
+  refined.value.conservativeResize(count);
+  for (std::size_t k = 0; k < times.size(); ++k)
+    for (Eigen::Index at = 0; at < 3; ++at) {
+      const Eigen::Index i = static_cast<Eigen::Index>(5 * k) + at;
+      error[i] += problem.error_of_start(times[k]) * std::abs(refined.value[i]);
+    }
+  refined.error = error;
+  refined.lattice = Figures::Zero(count);
+  return refined;
 }
 
 TransportStationary stationary_estimates(const TransportProblem& problem, double tolerance, bool with_rest,
@@ -277,45 +325,41 @@ TransportPrediction Transport::predict(const AnySlider& slider, const TransportE
   Moments moments = detail::moments_at(times);
   moments.remark = remark_of(excitation);
   const TransportProblem problem(slider, excitation);
-  const double last = times.empty() ? 0 : times.back();
-  const auto [step, steps] = problem.steps_to(last);
-  const TransportProblem::Window window = window_from_rest(problem, step, steps, progress);
-  const std::size_t count = times.size();
-  const auto compute = [&](const Chain& chain) {
-    Figures figures = Figures::Zero(static_cast<Eigen::Index>(5 * count));
-    const auto parts = static_cast<std::size_t>(std::lround(step / chain.step()));
-    const std::vector<MotionMoments> history = history_from_rest(chain, steps * parts, progress);
-    for (std::size_t k = 0; k < count && last > 0; ++k)
-      for (std::size_t i = 0; i < 5; ++i)
-        figures[static_cast<Eigen::Index>(5 * k + i)] = between(history, all[i], times[k] / chain.step());
-    return figures;
-  };
-  const auto end = static_cast<Eigen::Index>(5 * count);
-  std::vector<Eigen::Index> judged;
-  if (last > 0) judged = {end - 4, end - 1};
-  const Refined refined = refine(problem, window, step, {.tolerance = tolerance_, .judged = judged}, compute);
-  Estimates Moments::*const estimates[] = {&Moments::displacement_mean, &Moments::displacement_variance,
-                                           &Moments::covariance, &Moments::velocity_mean, &Moments::velocity_variance};
-  for (std::size_t k = 0; k < count; ++k)
-    for (std::size_t i = 0; i < 5; ++i) {
-      const auto at = static_cast<Eigen::Index>(5 * k + i);
-      (moments.*estimates[i]).value[k] = refined.value[at];
-      (moments.*estimates[i]).error[k] = refined.whole_error(at);
+  constexpr Estimates Moments::*const estimates[] = {&Moments::displacement_mean, &Moments::displacement_variance,
+                                                     &Moments::covariance, &Moments::velocity_mean,
+                                                     &Moments::velocity_variance};
+  TransportCost cost;
+  // Times that the steps to the last one resolve, then those before with shorter steps.
+  std::size_t levels = 4;
+  for (std::size_t end = times.size(), begin = end; end > 0 && times[end - 1] > 0; end = begin) {
+    const auto [step, steps] = problem.steps_to(times[end - 1]);
+    while (begin > 0 && times[begin - 1] >= problem.earliest(step)) --begin;
+    const bool late = end == times.size();
+    const Refined refined = moments_from_rest(problem, times.subspan(begin, end - begin), tolerance_, levels, progress);
+    for (std::size_t k = begin; k < end; ++k)
+      for (std::size_t i = 0; i < 5; ++i) {
+        const auto at = static_cast<Eigen::Index>(5 * (k - begin) + i);
+        (moments.*estimates[i]).value[k] = refined.value[at];
+        (moments.*estimates[i]).error[k] = refined.error[at];
+      }
+    if (!late) continue;
+    cost.nodes = refined.nodes, cost.steps = steps, levels = refined.levels;
+    const Eigen::Index last = refined.value.size();
+    if (!problem.pulses()) {
+      require_accuracy(refined, tolerance_, last - 4, "the variance of the displacement at the last time");
+      require_accuracy(refined, tolerance_, last - 1, "the variance of the velocity at the last time");
     }
+  }
   for (const std::size_t variance : {1U, 4U})  // where it is far below its error, interpolation can leave less than 0
     for (double& value : (moments.*estimates[variance]).value) value = std::max(value, 0.0);
-  constexpr const char* nouns[] = {"the variance of the displacement at the last time",
-                                   "the variance of the velocity at the last time"};
-  for (std::size_t i = 0; i < judged.size() && !problem.pulses(); ++i)
-    require_accuracy(refined, tolerance_, judged[i], nouns[i]);
   // With the step of the stationary motion: to a short time steps are short.
   if (problem.wanders())
     moments.growth_rate = {std::numeric_limits<double>::quiet_NaN(), 0};
   else
     moments.growth_rate =
         problem.sprung() ? Estimate{0, 0} : stationary_estimates(problem, tolerance_, false, progress).growth_rate;
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  return {std::move(moments), {refined.nodes, steps, seconds}, *this, slider, excitation};
+  cost.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  return {std::move(moments), cost, *this, slider, excitation};
 }
 
 TransportPrediction::TransportPrediction(Moments moments, const TransportCost& cost, const Transport& theory,
@@ -349,6 +393,7 @@ Estimate TransportPeak::quantile(double probability, const Progress& progress) c
   require(probability >= 0.01 && probability <= 0.999, "TransportPeak: probability must be from 0.01 to 0.999",
           probability);
   const TransportProblem problem(slider_, excitation_);
+  if (probability <= problem.resting(time_).value) return {0, 0};
   const auto [step, steps] = problem.steps_to(time_);
   const auto window = window_from_rest(problem, step, steps, progress);
   const auto rms = std::sqrt(history_from_rest(problem.chain(step, 0, window), steps, progress).back().xx);
@@ -384,7 +429,9 @@ DisplacementDistribution Transport::displacement(const AnySlider& slider, const 
   const Chain coarse = problem.chain(step, 0, window);
   const MotionMoments last = history_from_rest(coarse, steps, progress).back();
   // The window: one that held less would fold the tails back.
-  detail::CharacteristicSamples samples{last.x, 10 * std::sqrt(last.xx), {}};
+  const Estimate resting = problem.resting(time);
+  detail::CharacteristicSamples samples{last.x, 10 * std::sqrt(last.xx / std::max(1 - resting.value, 0.01))};
+  samples.atom = resting.value;
   const std::size_t most = at_once ? 20 : 60;
   constexpr double vanishing = 1e-5;
   std::vector<double> waves;
@@ -395,30 +442,45 @@ DisplacementDistribution Transport::displacement(const AnySlider& slider, const 
     do waves.push_back((static_cast<double>(waves.size()) + 0.5) * std::numbers::pi / samples.half_width);
     while (at_once && waves.size() < most);
     const auto values = characteristic(coarse, time, std::span(waves).subspan(first), progress);
-    const auto last_wave = std::ranges::find_if(values, [](auto value) { return std::abs(value) <= vanishing; });
-    size = std::abs(last_wave == values.end() ? values.back() : *last_wave);
+    const auto left = [&](std::complex<double> value) { return std::abs(value - samples.atom); };
+    const auto last_wave = std::ranges::find_if(values, [&](auto value) { return left(value) <= vanishing; });
+    size = left(last_wave == values.end() ? values.back() : *last_wave);
     if (last_wave != values.end()) waves.resize(first + static_cast<std::size_t>(last_wave - values.begin()) + 1);
   }
-  if (size > 0.05)
-    throw ConvergenceError("Transport: the characteristic function of the displacement at " + detail::shortest(time) +
-                           " s must vanish at high wave numbers, is " + detail::shortest(size) + " at " +
-                           detail::shortest(waves.back()) + " 1/m: many displacements are close to 0");
   const Refined refined =
-      refine(problem, window, step, {.tolerance = tolerance_, .judged = {}, .levels = 1}, [&](const Chain& chain) {
-        const auto values = characteristic(chain, time, waves, progress);
-        Figures figures(2 * static_cast<Eigen::Index>(values.size()));
-        for (Eigen::Index j = 0; j < figures.size(); j += 2) {
-          figures[j] = values[static_cast<std::size_t>(j / 2)].real();
-          figures[j + 1] = values[static_cast<std::size_t>(j / 2)].imag();
-        }
-        return figures;
-      });
-  double error = size;
+      refine(problem, window, step, {.tolerance = tolerance_, .judged = {}, .levels = 1},
+             [&, first = step, count = steps](const Chain& chain) {
+               const auto values = characteristic(chain, time, waves, progress);
+               std::vector<double> figures;
+               for (const std::complex<double> value : values)
+                 figures.insert(figures.end(), {value.real(), value.imag()});
+               const auto parts = static_cast<std::size_t>(std::lround(first / chain.step()));
+               const std::vector<MotionMoments> history = history_from_rest(chain, count * parts, progress);
+               for (const auto figure : {&MotionMoments::x, &MotionMoments::xx})
+                 figures.push_back(between(history, figure, time / chain.step()));
+               return Figures(Eigen::Map<const Figures>(figures.data(), static_cast<Eigen::Index>(figures.size())));
+             });
+  const Eigen::Index moments = refined.value.size() - 2;
+  samples.center = refined.value[moments];
+  samples.variance = refined.value[moments + 1];
+  double error = resting.error;
   for (std::size_t j = 0; j < waves.size(); ++j) {
     const auto at = static_cast<Eigen::Index>(2 * j);
-    samples.values.push_back(std::complex<double>(refined.value[at], refined.value[at + 1]) *
+    samples.values.push_back(std::complex<double>(refined.value[at] - samples.atom, refined.value[at + 1]) *
                              std::polar(1.0, -waves[j] * samples.center));
     error += 2 * std::hypot(refined.whole_error(at), refined.whole_error(at + 1)) / (waves[j] * samples.half_width);
+  }
+  if (size > vanishing) {
+    // Many displacements are close to 0. Away from it, what the waves beyond would change is about what those of the
+    // last quarter have.
+    samples.resolution = 2 * samples.half_width / static_cast<double>(waves.size());
+    detail::CharacteristicSamples fewer = samples;
+    fewer.values.resize(waves.size() - waves.size() / 4);
+    const DisplacementDistribution found(samples, 0), before(fewer, 0);
+    double change = 0;
+    for (const double x : found.displacement())
+      if (std::abs(x) > samples.resolution) change = std::max(change, std::abs(found.cdf(x) - before.cdf(x)));
+    error += change;
   }
   return {samples, error, remark_of(excitation)};
 }
