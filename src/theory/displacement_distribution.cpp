@@ -178,11 +178,7 @@ DisplacementDistribution::DisplacementDistribution(const detail::Slips& slips, s
 
 DisplacementDistribution::DisplacementDistribution(const detail::CharacteristicSamples& samples, double error,
                                                    std::string remark)
-    : remark_(std::move(remark)),
-      atom_(samples.atom),
-      count_(-std::log(samples.atom)),
-      error_(error),
-      resolution_(samples.resolution) {
+    : remark_(std::move(remark)), atom_(0), count_(std::numeric_limits<double>::infinity()), error_(error) {
   const double width = samples.half_width;
   step_ = 2 * width / static_cast<double>(nodes);
   displacement_.resize(nodes);
@@ -210,18 +206,14 @@ DisplacementDistribution::DisplacementDistribution(const detail::CharacteristicS
     for (double& one : powers) one += power, power *= y;
   }
   below_[nodes] = sum;
-  // Exactly 1 with the atom: round-off, and where the series, which ends, is negative.
-  for (double& mass : below_) mass *= (1 - atom_) / sum;
-  for (double& density : density_) density *= (1 - atom_) / sum;
+  // Exactly 1: round-off, and where the series, which ends, is negative.
+  for (double& mass : below_) mass /= sum;
+  for (double& density : density_) density /= sum;
   const double total = powers[0];
-  double of_atom = atom_;
-  for (double& one : powers) {
-    one = one / total * (1 - atom_) + of_atom;
-    of_atom *= -samples.center;
-  }
+  for (double& one : powers) one /= total;
   const double mean = powers[1], variance = powers[2] - mean * mean;
-  cumulants_[0] = samples.center;  // also of tails beyond the window
-  cumulants_[1] = samples.variance;
+  cumulants_[0] = samples.center + mean;
+  cumulants_[1] = variance;
   cumulants_[2] = powers[3] - 3 * mean * powers[2] + 2 * mean * mean * mean;
   cumulants_[3] = powers[4] - 4 * mean * powers[3] + 6 * mean * mean * powers[2] - 3 * mean * mean * mean * mean -
                   3 * variance * variance;

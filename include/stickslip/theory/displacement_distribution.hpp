@@ -28,13 +28,10 @@ struct Slips {
 };
 
 /// A characteristic function E[exp(i u (x - center))] at u = (j + 1/2) pi / half_width, j = 0, 1, ..., of a law that
-/// lies within half_width of the center, less what an atom at x = 0 adds to it; the rest has a density.
+/// lies within half_width of the center and has a density.
 struct CharacteristicSamples {
-  double center = 0, half_width = 1;  ///< [m]; the center is the mean
-  double variance = 0;                ///< [m^2]
+  double center = 0, half_width = 1;  ///< [m]
   std::vector<std::complex<double>> values{};
-  double atom = 0;
-  double resolution = 0;  ///< to which values at the last u do not resolve the density [m]
 };
 
 /// Slips of gamma-distributed lengths: in each direction the density is proportional to |d|^(k-1) exp(-|d| / theta),
@@ -58,7 +55,7 @@ namespace stickslip::theory {
 /// is an atom at x = 0, the probability exp(-int nu) that nothing slips; the rest has a density. Made by
 /// `PulseSuperposition::distribution` from what single pulses do; `PulseChain::distribution` fits slips of
 /// gamma-distributed lengths to four cumulants and the atom. `TransportPrediction::displacement` has the characteristic
-/// function itself, and the atom apart.
+/// function itself, of a law without an atom.
 ///
 /// Of slips the density is the Fourier transform of the characteristic function less the atom, by FFT over `nodes`
 /// points of a window beyond which x lies with a probability below 2e-13. The slips are laid on that grid with their
@@ -79,24 +76,20 @@ class DisplacementDistribution {
   /// @param remark  the remark of the theory
   explicit DisplacementDistribution(const detail::Slips& slips, std::string remark = {});
 
-  /// A law with a density, and an atom at 0, from its characteristic function by its Fourier series.
+  /// A law with a density, from its characteristic function by its Fourier series.
   /// @param error  of its probabilities
   DisplacementDistribution(const detail::CharacteristicSamples& samples, double error, std::string remark = {});
 
-  /// A bound on the numerical error of probabilities, of x farther than `resolution()` from 0; 0 if they have only the
-  /// errors stated above.
+  /// A bound on the numerical error of probabilities; 0 if they have only the errors stated above.
   double error() const noexcept { return error_; }
-
-  /// Slips shorter than this are spread over it [m]; 0 where all are resolved.
-  double resolution() const noexcept { return resolution_; }
 
   /// What the theory says of parameters outside its range of validity; empty within it.
   const std::string& remark() const noexcept { return remark_; }
 
-  /// The probability that nothing slips: the probability of exactly x = 0.
+  /// The probability that nothing slips, exp(-`slips()`): the probability of exactly x = 0.
   double atom() const noexcept { return atom_; }
 
-  /// Expected number of slips, if they are independent: minus the logarithm of the atom, infinite without one.
+  /// Expected number of slips; infinite for a law without an atom.
   double slips() const noexcept { return count_; }
 
   double mean() const noexcept { return cumulants_[0]; }      ///< [m]
@@ -129,7 +122,7 @@ class DisplacementDistribution {
   double smooth_cdf(double x) const;
 
   std::string remark_;
-  double atom_ = 1, count_ = 0, error_ = 0, resolution_ = 0;
+  double atom_ = 1, count_ = 0, error_ = 0;
   double cumulants_[4] = {};
   double step_ = 0;
   std::vector<double> displacement_{}, density_{};

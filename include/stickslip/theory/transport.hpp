@@ -99,7 +99,7 @@ class TransportPeak {
   /// Takes 5 to 20 s.
   Estimate exceedance(double level, const std::function<void()>& progress = {}) const;
 
-  /// The level that max |x| does not exceed with a probability [m]; 0 up to the chance under noise that nothing slips.
+  /// The level that max |x| does not exceed with a probability [m].
   /// @param probability  from 0.01 to 0.999
   /// @throws std::invalid_argument naming the value
   /// @throws ConvergenceError  no such level within a factor of 1000 of the rms displacement: the slider hardly slides
@@ -212,12 +212,13 @@ class Transport {
                                  const std::function<void()>& progress = {}) const;
 
   /// The distribution of the displacement at a time, from its characteristic function, which is carried like the
-  /// moments: p <- T'(exp(i k X) p). The chance under noise that nothing has slipped is an atom at 0. The `error` bounds
-  /// the numerical error of probabilities; where many displacements are close to 0, only beyond the `resolution`.
+  /// moments: p <- T'(exp(i k X) p). Its `error` bounds the numerical error of probabilities.
   /// @param slider  as for `predict`
   /// @param excitation  as for `predict`
   /// @param time  [s], positive and finite
   /// @throws std::invalid_argument naming the value
+  /// @throws ConvergenceError  the characteristic function does not vanish at high wave numbers: many
+  ///                           displacements are close to 0
   /// Takes 1 to 20 s.
   DisplacementDistribution displacement(const AnySlider& slider, const TransportExcitation& excitation, double time,
                                         const std::function<void()>& progress = {}) const;

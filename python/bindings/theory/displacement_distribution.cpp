@@ -38,15 +38,11 @@ W. Feller, An Introduction to Probability Theory and Its Applications, vol. 2 (1
       .def_property_readonly("remark", &DisplacementDistribution::remark,
                              "Parameters outside the range of the theory and the errors to expect; empty within it.")
       .def_property_readonly("atom", &DisplacementDistribution::atom,
-                             "Probability of no slip, that is, of exactly x = 0.")
+                             "Probability of no slip, exp(-slips), that is, of exactly x = 0.")
       .def_property_readonly("slips", &DisplacementDistribution::slips,
-                             "Expected number of slips, if they are independent: -log(atom), infinite without an atom.")
-      .def_property_readonly(
-          "error", &DisplacementDistribution::error,
-          "Bound on the numerical error of probabilities, of displacements farther than `resolution` "
-          "from 0; 0 of sums of slips.")
-      .def_property_readonly("resolution", &DisplacementDistribution::resolution,
-                             "Slips shorter than this are spread over it [m]; 0 where all are resolved.")
+                             "Expected number of slips; infinite for a law without an atom.")
+      .def_property_readonly("error", &DisplacementDistribution::error,
+                             "Bound on the numerical error of probabilities; 0 of sums of slips.")
       .def_property_readonly("mean", &DisplacementDistribution::mean, "Mean [m].")
       .def_property_readonly("variance", &DisplacementDistribution::variance, "Variance [m^2].")
       .def_property_readonly("skewness", &DisplacementDistribution::skewness, "Skewness; NaN if nothing ever slips.")

@@ -275,7 +275,7 @@ Notes
 -----
 Takes 2 to 20 s.)")
       .def("quantile", &peak_quantile, py::arg("probability"),
-           R"(Level that the peak does not exceed with a probability; 0 up to the chance under noise that nothing slips.
+           R"(Level that the peak does not exceed with a probability.
 
 Parameters
 ----------
@@ -321,13 +321,14 @@ time : float
 Returns
 -------
 DisplacementDistribution
-    Its `atom` is the chance under noise that nothing has slipped, and `error` bounds the numerical error of
-    probabilities; where many displacements are close to 0, only beyond its `resolution`.
+    `error` bounds the numerical error of probabilities. There is no atom.
 
 Raises
 ------
 ValueError
     A time out of range.
+ConvergenceError
+    The characteristic function does not vanish at high wave numbers: many displacements are close to 0.
 
 Notes
 -----
@@ -425,8 +426,7 @@ slider : Slider or friction law
 excitation : float, Spectrum, ShapingFilter, GaussianExcitation or PoissonPulses
     A number is the level S0 of white noise [m^2/s^3]. Filters of at most two states.
 times : array_like
-    Times [s], shape (T,), finite, at least 0, increasing. Under pulses 0 or at least 2 half widths, with
-    `stationary_start` 3.
+    Times [s], shape (T,), finite, at least 0, increasing.
 
 Returns
 -------

@@ -109,46 +109,6 @@ TransportProblem::Steps TransportProblem::steps_to(double time) const {
   return {fixed_step() ? step : time / count, static_cast<std::size_t>(count)};
 }
 
-Estimate TransportProblem::resting(double time) const {
-  const double forward = motion_.hold(Direction::forward), backward = motion_.hold(Direction::backward);
-  if (pulses_ || (white() && !(held_ > 0))) return {0, 0};
-  if (white()) {
-    const double unit = std::sqrt(4 * pi * s0_ / held_);  // root 2 times the rms
-    const double within = (std::erf(forward / unit) + std::erf(backward / unit)) / 2;
-    return {std::pow(within, std::ceil(time / held_ - 1e-9)), 0};
-  }
-  // The noise at the middle of each step stays within the levels, lowered as in `chain`.
-  const double lowering = 0.5826 * filtered_->roughness, farthest = 4.5 * filtered_->rms;
-  const double least = std::max(24.0, 4 * time / first_step());
-  const double count = std::ceil(std::max(least, time * std::pow(4 * lowering / motion_.least_hold(), 2)));
-  if (count > 20 * least) return {0, 0};  // it slips at once
-  const auto after = [&](double steps) {
-    const double step = time / steps, less = lowering * std::sqrt(step);
-    const double low = -std::min(forward - less, farthest), high = std::min(backward - less, farthest);
-    std::vector<double> edges, jumps;
-    if (low > -farthest) edges.push_back(low - farthest), jumps.push_back(low);
-    for (double i = 0; i <= 4; ++i) edges.push_back(low + (high - low) * i / 4);
-    jumps.push_back(edges.back());
-    if (high < farthest) edges.push_back(high + farthest);
-    const LoadGrid load(*filtered_, {edges, 6, jumps}, 13, step);
-    Eigen::VectorXd p = load.start();
-    const auto stay = [&] {
-      for (std::size_t i = 0; i < load.loads(); ++i)
-        if (load.load(i) < low || load.load(i) > high)
-          p.segment(static_cast<Eigen::Index>(load.share(i).first), static_cast<Eigen::Index>(load.share(i).count))
-              .setZero();
-    };
-    stay();
-    for (double k = 1; k < steps; ++k) {
-      p = *load.adjoint_step() * p;
-      stay();
-    }
-    return p.sum();
-  };
-  const double once = after(count), twice = after(2 * count);
-  return {std::clamp(2 * twice - once, 0.0, 1.0), std::abs(twice - once)};
-}
-
 TransportProblem::Slip TransportProblem::strong_pulse(double reach) const {
   const double amplitude = (0.2 * reach + 2) * pulses_->arrivals.sigma * std::sqrt(1 + pulses_->arrivals.rate);
   const double speed = pulses_->half_width * amplitude, past = speed * pulses_->half_width / 2;

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "stickslip/sliding/any_slider.hpp"
-#include "stickslip/statistics/tally.hpp"
 #include "stickslip/theory/transport.hpp"
 #include "theory/transport/chain.hpp"
 #include "theory/transport/held_motion.hpp"
@@ -46,9 +45,6 @@ class TransportProblem {
   double held() const noexcept { return held_; }
   bool white() const noexcept { return s0_ > 0; }
   bool pulses() const noexcept { return pulses_.has_value(); }
-
-  /// The probability that a slider at rest under noise has not slipped by a time [s]. Under pulses 0 is returned.
-  Estimate resting(double time) const;
 
   /// A step with which errors are some percent [s].
   double first_step() const noexcept;

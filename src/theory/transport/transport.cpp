@@ -393,7 +393,6 @@ Estimate TransportPeak::quantile(double probability, const Progress& progress) c
   require(probability >= 0.01 && probability <= 0.999, "TransportPeak: probability must be from 0.01 to 0.999",
           probability);
   const TransportProblem problem(slider_, excitation_);
-  if (probability <= problem.resting(time_).value) return {0, 0};
   const auto [step, steps] = problem.steps_to(time_);
   const auto window = window_from_rest(problem, step, steps, progress);
   const auto rms = std::sqrt(history_from_rest(problem.chain(step, 0, window), steps, progress).back().xx);
@@ -429,9 +428,7 @@ DisplacementDistribution Transport::displacement(const AnySlider& slider, const 
   const Chain coarse = problem.chain(step, 0, window);
   const MotionMoments last = history_from_rest(coarse, steps, progress).back();
   // The window: one that held less would fold the tails back.
-  const Estimate resting = problem.resting(time);
-  detail::CharacteristicSamples samples{last.x, 10 * std::sqrt(last.xx / std::max(1 - resting.value, 0.01))};
-  samples.atom = resting.value;
+  detail::CharacteristicSamples samples{last.x, 10 * std::sqrt(last.xx), {}};
   const std::size_t most = at_once ? 20 : 60;
   constexpr double vanishing = 1e-5;
   std::vector<double> waves;
@@ -442,45 +439,30 @@ DisplacementDistribution Transport::displacement(const AnySlider& slider, const 
     do waves.push_back((static_cast<double>(waves.size()) + 0.5) * std::numbers::pi / samples.half_width);
     while (at_once && waves.size() < most);
     const auto values = characteristic(coarse, time, std::span(waves).subspan(first), progress);
-    const auto left = [&](std::complex<double> value) { return std::abs(value - samples.atom); };
-    const auto last_wave = std::ranges::find_if(values, [&](auto value) { return left(value) <= vanishing; });
-    size = left(last_wave == values.end() ? values.back() : *last_wave);
+    const auto last_wave = std::ranges::find_if(values, [](auto value) { return std::abs(value) <= vanishing; });
+    size = std::abs(last_wave == values.end() ? values.back() : *last_wave);
     if (last_wave != values.end()) waves.resize(first + static_cast<std::size_t>(last_wave - values.begin()) + 1);
   }
+  if (size > 0.05)
+    throw ConvergenceError("Transport: the characteristic function of the displacement at " + detail::shortest(time) +
+                           " s must vanish at high wave numbers, is " + detail::shortest(size) + " at " +
+                           detail::shortest(waves.back()) + " 1/m: many displacements are close to 0");
   const Refined refined =
-      refine(problem, window, step, {.tolerance = tolerance_, .judged = {}, .levels = 1},
-             [&, first = step, count = steps](const Chain& chain) {
-               const auto values = characteristic(chain, time, waves, progress);
-               std::vector<double> figures;
-               for (const std::complex<double> value : values)
-                 figures.insert(figures.end(), {value.real(), value.imag()});
-               const auto parts = static_cast<std::size_t>(std::lround(first / chain.step()));
-               const std::vector<MotionMoments> history = history_from_rest(chain, count * parts, progress);
-               for (const auto figure : {&MotionMoments::x, &MotionMoments::xx})
-                 figures.push_back(between(history, figure, time / chain.step()));
-               return Figures(Eigen::Map<const Figures>(figures.data(), static_cast<Eigen::Index>(figures.size())));
-             });
-  const Eigen::Index moments = refined.value.size() - 2;
-  samples.center = refined.value[moments];
-  samples.variance = refined.value[moments + 1];
-  double error = resting.error;
+      refine(problem, window, step, {.tolerance = tolerance_, .judged = {}, .levels = 1}, [&](const Chain& chain) {
+        const auto values = characteristic(chain, time, waves, progress);
+        Figures figures(2 * static_cast<Eigen::Index>(values.size()));
+        for (Eigen::Index j = 0; j < figures.size(); j += 2) {
+          figures[j] = values[static_cast<std::size_t>(j / 2)].real();
+          figures[j + 1] = values[static_cast<std::size_t>(j / 2)].imag();
+        }
+        return figures;
+      });
+  double error = size;
   for (std::size_t j = 0; j < waves.size(); ++j) {
     const auto at = static_cast<Eigen::Index>(2 * j);
-    samples.values.push_back(std::complex<double>(refined.value[at] - samples.atom, refined.value[at + 1]) *
+    samples.values.push_back(std::complex<double>(refined.value[at], refined.value[at + 1]) *
                              std::polar(1.0, -waves[j] * samples.center));
     error += 2 * std::hypot(refined.whole_error(at), refined.whole_error(at + 1)) / (waves[j] * samples.half_width);
-  }
-  if (size > vanishing) {
-    // Many displacements are close to 0. Away from it, what the waves beyond would change is about what those of the
-    // last quarter have.
-    samples.resolution = 2 * samples.half_width / static_cast<double>(waves.size());
-    detail::CharacteristicSamples fewer = samples;
-    fewer.values.resize(waves.size() - waves.size() / 4);
-    const DisplacementDistribution found(samples, 0), before(fewer, 0);
-    double change = 0;
-    for (const double x : found.displacement())
-      if (std::abs(x) > samples.resolution) change = std::max(change, std::abs(found.cdf(x) - before.cdf(x)));
-    error += change;
   }
   return {samples, error, remark_of(excitation)};
 }
