@@ -17,7 +17,8 @@ def floor(slider, motion=QUAKE, **options):
 
 
 def test_a_floor_that_never_slips_has_the_spectrum_of_the_ground():
-    assert floor(ss.Coulomb(mu=1000)) == ss.response_spectrum(QUAKE, PERIODS)
+    spectrum, ground = floor(ss.Coulomb(mu=1000)), ss.response_spectrum(QUAKE, PERIODS)
+    assert np.array_equal(spectrum.values, ground.values)
 
 
 def test_a_rigid_thing_on_a_sliding_floor_feels_its_friction():

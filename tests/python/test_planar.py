@@ -329,9 +329,9 @@ def test_what_cannot_slide_in_the_plane_is_refused():
         ss.integrate(SLIDERS["coulomb"], ss.HarmonicMotion(1, 2, duration=10))
     with pytest.raises(TypeError, match="law must be a friction law"):
         ss.PlanarSlider(3)
-    structures = "an IsolatedStructure, an EquipmentOnFloor or a FlexibleSlope"
+    others = "an IsolatedStructure, an EquipmentOnFloor, a FlexibleSlope or a SlenderBlock"
     with pytest.raises(
-        TypeError, match=rf"slider must be a Slider.*, a PlanarSlider, {structures}, got 0\.3$"
+        TypeError, match=rf"slider must be a Slider.*, a PlanarSlider, {others}, got 0\.3$"
     ):
         ss.integrate(0.3, station())
     with pytest.raises(TypeError, match=r"contact must be .*got 3"):

@@ -403,7 +403,7 @@ TEST_CASE("extreme but legal input ends in bounded work, with an answer or a rea
   }
   CHECK_THROWS_WITH(
       KumarFriction({.mu_ref = 1e308, .static_pressure = 3e7, .reference_pressure = 3e7, .contact_radius = 0.1}),
-      ContainsSubstring("mu_ref must be from 0 to 1e300"));
+      ContainsSubstring("mu_ref must be from 0 to 1e+300"));
   State state = State::at(0, 1);
   CHECK_THROWS_AS(advance(Slider(Stribeck(1e308, 1, 0.1, 2)), Segment{0.1, 3, -3}, state), ConvergenceError);
   CHECK_THROWS_WITH(advance(Slider(Coulomb(1, infinity)), Segment{1, 0, 0}, state = State::at(0, -1)),

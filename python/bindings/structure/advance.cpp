@@ -1,4 +1,6 @@
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -30,6 +32,16 @@ StructureState state_from(const py::object& modal_displacement, const py::object
         "StructureState: modal_displacement and modal_velocity must have one value per mode, got " +
         std::to_string(state.modal_displacement.size()) + " and " + std::to_string(state.modal_velocity.size()));
   return state;
+}
+
+// Hashable.
+py::tuple plain(const PendulumMemory& memory) {
+  py::list values;
+  for (const double place : memory.place) values.append(place);
+  values.append(memory.force);
+  for (const int one : {int{memory.direction}, int{memory.moving}, int{memory.at_forward}, int{memory.at_backward}})
+    values.append(one);
+  return py::tuple(values);
 }
 
 template <class System>
@@ -64,13 +76,21 @@ heat : SurfaceHeat, optional
     Heat left in the sliding surface, for laws that depend on its temperature. Without it the surface is cold.)",
       [](const StructureState& s) {
         return py::make_tuple(plain(s.modal_displacement), plain(s.modal_velocity), s.displacement, s.velocity,
-                              static_cast<int>(s.mode), s.sliding_distance, s.heat, pack(s.pendulum));
+                              static_cast<int>(s.mode), s.sliding_distance, s.heat, plain(s.pendulum));
       },
       [](const py::tuple& inputs) {
         StructureState state = state_from(inputs[0], inputs[1], inputs[2].cast<double>(), inputs[3].cast<double>(),
                                           inputs[5].cast<double>(), inputs[6].cast<SurfaceHeat>());
         state.mode = static_cast<Mode>(inputs[4].cast<int>());
-        state.pendulum = unpack<PendulumMemory>(inputs[7]);
+        const py::tuple elements = inputs[7];
+        for (std::size_t k = 0; k < state.pendulum.place.size(); ++k)
+          state.pendulum.place[k] = elements[k].cast<double>();
+        const auto rest = [&](std::size_t k) { return elements[state.pendulum.place.size() + k]; };
+        state.pendulum.force = rest(0).cast<double>();
+        state.pendulum.direction = rest(1).cast<std::int8_t>();
+        state.pendulum.moving = rest(2).cast<std::uint8_t>();
+        state.pendulum.at_forward = rest(3).cast<std::uint8_t>();
+        state.pendulum.at_backward = rest(4).cast<std::uint8_t>();
         return state;
       })
       .def(py::init(&state_from), py::arg("modal_displacement"), py::arg("modal_velocity"), py::kw_only(),

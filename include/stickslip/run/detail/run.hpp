@@ -149,15 +149,16 @@ bool settle(const Slider& slider, State& state, Go&& go) {
     go(duration);
     if (state.in_flight) continue;
     if (is_stuck(state)) return false;
-    // After many cycles only.
-    if (duration >= 1024 && before - energy() < before * (duration / longest)) break;
-    if (!unrest.creeps) continue;
-    scale = std::max(scale, std::max(norm(from), norm(state.displacement)));
-    const bool rests = norm(state.velocity) <= (wn > 0 ? 0x1p-40 * wn * scale : speed / 2);
-    if (rests && norm(state.displacement - from) <= 0x1p-50 * scale) {
-      stop_at(state, state.displacement);
-      return true;
+    if (unrest.creeps) {
+      scale = std::max(scale, std::max(norm(from), norm(state.displacement)));
+      const bool rests = norm(state.velocity) <= (wn > 0 ? 0x1p-40 * wn * scale : speed / 2);
+      if (rests && norm(state.displacement - from) <= 0x1p-50 * scale) {
+        stop_at(state, state.displacement);
+        return true;
+      }
     }
+    // After many cycles only.
+    if (duration >= 8192 && before - energy() < before * (duration / longest)) break;
   }
   throw ConvergenceError("without ground motion the slider does not come to rest: at " + name_of(state.displacement) +
                          " m it still moves at " + shortest(norm(state.velocity)) + " m/s, with a slip level of " +
