@@ -32,11 +32,11 @@ class Overturning {
     for (std::size_t i = last; i-- > 0;) {
       const Segment s = motion.segment(i);
       largest = std::max({largest, std::abs(s.start), std::abs(s.end)});
-      ahead_[i] = before(s, s.duration, ahead_[i + 1]);
+      ahead_[i] = before(s, decay(s.duration), s.duration, ahead_[i + 1]);
     }
     for (std::size_t i = 0; i < last; ++i) {
       const Segment s = motion.segment(i);
-      const double x = p_ * s.duration, lost = -std::expm1(-x);
+      const auto [x, lost] = decay(s.duration);
       const double rate = s.duration > 0 ? (s.end - s.start) / s.duration : 0;
       behind_[i + 1] = (1 - lost) * behind_[i] - (p_ * s.start * lost + rate * (x - lost)) / standard_gravity;
     }
@@ -69,20 +69,35 @@ class Overturning {
     const double alpha = alpha_[s > 0 ? 0 : 1];
     const double part = ground.duration > 0 ? left / ground.duration : 0;
     const Segment rest{left, ground.end + part * (ground.start - ground.end), ground.end};
-    const double sigma = s * at.rate + p_ * (s * at.rotation - alpha) - s * before(rest, left, ahead_[segment + 1]);
+    const double sigma = s * at.rate + p_ * (s * at.rotation - alpha) -
+                         s * before(rest, {p_ * left, -std::expm1(-p_ * left)}, left, ahead_[segment + 1]);
     return std::abs(sigma) / (p_ * alpha);
   }
 
  private:
+  // p h and 1 - e^(-p h) of a duration h. Most segments have the same.
+  struct Decay {
+    double x, lost;
+  };
+  Decay decay(double duration) noexcept {
+    if (!equal(duration, usual_)) {
+      usual_ = duration;
+      decay_ = {p_ * duration, -std::expm1(-p_ * duration)};
+    }
+    return decay_;
+  }
+
   // q* at the beginning of a segment, from that at its end.
-  double before(const Segment& s, double duration, double after) const noexcept {
-    const double x = p_ * duration, lost = -std::expm1(-x);
+  double before(const Segment& s, const Decay& by, double duration, double after) const noexcept {
     const double rate = duration > 0 ? (s.end - s.start) / duration : 0;
-    return (p_ * s.start * lost + rate * (lost - x * (1 - lost))) / standard_gravity + (1 - lost) * after;
+    return (p_ * s.start * by.lost + rate * (by.lost - by.x * (1 - by.lost))) / standard_gravity +
+           (1 - by.lost) * after;
   }
 
   double p_;
   double alpha_[2];
+  double usual_ = -1;
+  Decay decay_{};
   std::vector<double> ahead_, behind_;  // q* and d* at the samples [rad/s]
   std::vector<double> least_, most_;    // bounds of Theta from a sample on [rad]
 };

@@ -31,7 +31,7 @@ struct RockingOptions {
 /// bring it back (ROCKING.md 4): with q = theta' + p (theta - alpha) and the bounded motion Theta under the whole record,
 ///     sigma = q - q* > 0  and  alpha + min Theta + (sigma - max(d - d*, 0))/(2 p) > 0 from now on.
 /// Under vertical motion it has overturned at |theta| = pi/2, or after the record where q > 0.
-/// Cost: 2 ns a sample at rest, about 0.1 us while it rocks, 0.3 us for each impact.
+/// Cost: 60 ns a sample at rest; 0.8 us with an impact at every third sample.
 RockingResponse integrate(const SlenderBlock& block, const GroundMotion& motion, const RockingOptions& options = {});
 
 /// Ground acceleration over a segment, linear from start to end.
