@@ -62,7 +62,7 @@ ValueError
       py::arg("end") = py::none(), py::kw_only(), py::arg("vertical_start") = 0.0, py::arg("vertical_end") = py::none(),
       R"(With a `SlenderBlock` and a `RockingState`, a block that rocks. g + vertical_start and g + vertical_end must be
 positive. A block that lies on its side, at |theta| = pi/2, stays there. Returns a `RockingState`. Exact to round-off, like
-`integrate`; takes 0.1 us per call, and 0.3 us per impact.)");
+`integrate`.)");
 }
 
 }  // namespace stickslip::python
