@@ -35,7 +35,7 @@ StructureState state_from(const py::object& modal_displacement, const py::object
 }
 
 // Hashable.
-py::tuple plain(const PendulumMemory& memory) {
+py::tuple in_numbers(const PendulumMemory& memory) {
   py::list values;
   for (const double place : memory.place) values.append(place);
   values.append(memory.force);
@@ -76,7 +76,7 @@ heat : SurfaceHeat, optional
     Heat left in the sliding surface, for laws that depend on its temperature. Without it the surface is cold.)",
       [](const StructureState& s) {
         return py::make_tuple(plain(s.modal_displacement), plain(s.modal_velocity), s.displacement, s.velocity,
-                              static_cast<int>(s.mode), s.sliding_distance, s.heat, plain(s.pendulum));
+                              static_cast<int>(s.mode), s.sliding_distance, s.heat, in_numbers(s.pendulum));
       },
       [](const py::tuple& inputs) {
         StructureState state = state_from(inputs[0], inputs[1], inputs[2].cast<double>(), inputs[3].cast<double>(),
