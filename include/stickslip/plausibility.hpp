@@ -107,7 +107,7 @@ inline constexpr std::array ranges{
     PlausibleRange{"frequency in Hz", "Hz", 0, 100, 0.05, 50, "earthquakes",
                    {{{"it is in rad/s", 0.5 / std::numbers::pi}}}},
     PlausibleRange{"pulses or cycles of a motion", "", 0, 1e4 * (1 + 1e-9), 1, 5000, "earthquakes",
-                   {{{"the duration is in ms", 1e-3}}}, computed},
+                   {{{"the duration is in ms", 1e-3}}}, computed, 1e5 * (1 - 1e-9)},
     PlausibleRange{"time in an earthquake", "s", 0, 3600, 0.1, 600, "earthquakes", {in_ms}},
     PlausibleRange{"ratio of components", "", 0, 10, 0.1, 2, "ground motions", {in_percent}},
     // What is above 3 g is nearly always in other units. (The largest acceleration ever recorded is some 4 g.)
