@@ -60,7 +60,8 @@ struct ScaleRange {
 ///                outcomes the bound is found by bisection, to 1e-12 of `up_to`. A range or a gap narrower than up_to/steps
 ///                may be missed
 /// @param progress  as RockingOptions::progress
-/// @throws std::invalid_argument, ConvergenceError  as `integrate` with `settle`
+/// @throws std::invalid_argument  as `integrate` with `settle`
+/// @throws ConvergenceError       as `integrate` with `settle`
 std::vector<ScaleRange> critical_scales(const SlenderBlock& block, const GroundMotion& motion, double up_to,
                                         std::size_t steps = 400, const std::function<void()>& progress = {});
 
