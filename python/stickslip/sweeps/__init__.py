@@ -3,7 +3,7 @@
 from .directions import OrientationPercentile, Orientations, orientations
 from .error import SweepError
 from .parameter_grid import Grid, grid
-from .rocking_spectrum import RockingSpectrum, rocking_spectrum
+from .rocking import RockingSpectrum, rocking_spectrum
 from .run import sweep
 from .spectrum import sliding_spectrum
 from .table import SweepFailure, SweepTable
