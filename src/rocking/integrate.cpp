@@ -66,7 +66,7 @@ void move(const SlenderBlock& block, const RockingSegment& ground, RockingState&
 
 class RockingRecorder final : public RockingSink, public EventLog<double>, public Pace<4096> {
  public:
-  RockingRecorder(const SlenderBlock& block, const Overturning* overturning, const RockingState& state,
+  RockingRecorder(const SlenderBlock& block, const Overturning* overturning, double begin, const RockingState& state,
                   std::size_t event_limit, const std::function<void()>& progress, RockingResponse& response)
       : EventLog(event_limit, {}),
         Pace(progress),
@@ -74,7 +74,7 @@ class RockingRecorder final : public RockingSink, public EventLog<double>, publi
         overturning_(overturning),
         response_(response),
         count_from_(1e-3 * block.p() * block.alpha()) {
-    reach(state.rotation, 0);
+    reach(state.rotation, begin);
   }
 
   // The segment of the ground motion, and its number.
@@ -116,7 +116,7 @@ class RockingRecorder final : public RockingSink, public EventLog<double>, publi
   }
   void lose(double energy) override { response_.energy.impact += energy; }
   void fall(double energy) override { response_.energy.dissipated += energy; }
-  void decide(double margin) override { response_.margin = std::min(response_.margin, margin); }
+  void decide(double margin) { response_.margin = std::min(response_.margin, margin); }
 
   bool has_overturned() const noexcept { return response_.overturned != 0; }
   void overturned(double time, const RockingState& state) {
@@ -185,9 +185,8 @@ class RockingRun {
     }
     for (std::size_t i = 0; i < motion.samples(); ++i)
       require(standard_gravity + motion.vertical()[i] > 0,
-              "integrate: under this vertical motion the block leaves the ground, which a SlenderBlock cannot; g + a_z "
-              "must "
-              "be positive; is the vertical acceleration in m/s^2?",
+              "integrate: under this vertical motion the block leaves the ground, which a SlenderBlock cannot: "
+              "g + a_z must be positive; is the vertical acceleration in m/s^2?",
               standard_gravity + motion.vertical()[i], "m/s^2");
   }
 
@@ -206,7 +205,8 @@ class RockingRun {
     response.rate.resize(motion_.samples());
     keep(0, state, response);
     if (motion_.has_vertical()) response.components = "axis + vertical";
-    return {block_,  overturning_ ? &*overturning_ : nullptr, state, max_events(motion_.segments()), options_.progress,
+    return {block_,  overturning_ ? &*overturning_ : nullptr, motion_.time(0),
+            state,   max_events(motion_.segments()),          options_.progress,
             response};
   }
 

@@ -2,8 +2,8 @@
 
 #include <atomic>
 #include <cmath>
-#include <stdexcept>
 
+#include "base/attempt.hpp"
 #include "base/threads.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/rocking/integrate.hpp"
@@ -15,14 +15,14 @@ struct Stopped {};
 
 RockingOutcome outcome(const SlenderBlock& block, const GroundMotion& motion, const RockingOptions& options) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  try {
-    const RockingResponse r = integrate(block, motion, options);
-    return {r.peak, r.peak_ratio, r.overturned, r.overturned_at, r.impacts, r.margin, r.condition};
-  } catch (const ConvergenceError& error) {
-    return {.peak = nan, .peak_ratio = nan, .failure = error.what()};
-  } catch (const std::invalid_argument& error) {
-    return {.peak = nan, .peak_ratio = nan, .failure = error.what()};
-  }
+  RockingOutcome found;
+  detail::attempt(
+      [&] {
+        const RockingResponse r = integrate(block, motion, options);
+        found = {r.peak, r.peak_ratio, r.overturned, r.overturned_at, r.impacts, r.margin, r.condition};
+      },
+      [&](const char* message) { found = {.peak = nan, .peak_ratio = nan, .failure = message}; });
+  return found;
 }
 
 }  // namespace

@@ -29,8 +29,6 @@ class RockingSink {
   virtual void lose(double /*energy*/) {}
   /// The same in the fall on its side.
   virtual void fall(double /*energy*/) {}
-  /// The distance of the load from a level of uplift at rest, relative to the level; where it is least.
-  virtual void decide(double /*margin*/) {}
 
  protected:
   ~RockingSink() = default;

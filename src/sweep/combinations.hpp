@@ -14,8 +14,8 @@
 #include <tuple>
 #include <utility>
 
+#include "base/attempt.hpp"
 #include "base/threads.hpp"
-#include "stickslip/error.hpp"
 #include "stickslip/planar/vector.hpp"
 #include "stickslip/sweep/sweep.hpp"
 
@@ -121,20 +121,6 @@ class Combinations {
       table_.failures.push_back({slider, record, reversed ? Polarity::reversed : Polarity::recorded, message});
     }
     ++done_;
-  }
-
-  /// Does `work`; calls `failed` with the message if it fails.
-  template <class Work, class Failed>
-  static void attempt(Work&& work, Failed&& failed) {
-    try {
-      work();
-    } catch (const ConvergenceError& error) {
-      failed(error.what());
-    } catch (const std::overflow_error& error) {
-      failed(error.what());
-    } catch (const std::invalid_argument& error) {
-      failed(error.what());
-    }
   }
 
   /// Integrate a slider under a motion.

@@ -2,6 +2,8 @@
 #include "stickslip/rocking/outcomes.hpp"
 
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <numbers>
 #include <vector>
 
@@ -89,4 +91,16 @@ TEST_CASE("binomial intervals are those of Clopper and Pearson") {
   CHECK(binomial_interval(10, 10).high == 1);
   CHECK_THROWS_AS(binomial_interval(2, 1), std::invalid_argument);
   CHECK_THROWS_AS(binomial_interval(1, 2, 1), std::invalid_argument);
+}
+
+TEST_CASE("slender block: a motion beyond the range of doubles does not end a batch") {
+  const SlenderBlock block(1000, 0.2, 0.9);
+  const std::vector<GroundMotion> motions{GroundMotion({0, 1, 0}, 1), GroundMotion({0, 1000, -1000, 0}, 1)};
+  const auto outcomes = rocking_outcomes(
+      2, [&](std::size_t) -> const SlenderBlock& { return block; },
+      [&](std::size_t i, const std::function<void(const GroundMotion&)>& use) { use(motions[i]); });
+  CHECK(outcomes[0].failure.empty());
+  CHECK(outcomes[0].peak == 0);
+  CHECK_THAT(outcomes[1].failure, Catch::Matchers::ContainsSubstring("leaves the range of doubles"));
+  CHECK(std::isnan(outcomes[1].peak));
 }

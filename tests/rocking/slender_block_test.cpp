@@ -312,6 +312,8 @@ TEST_CASE("slender block: sizes, limits and bad input") {
       },
       "leaves the ground");
   CHECK_THROWS_AS(integrate(SlenderBlock(2, 0.2, 1), still(), tilted(0.1)), ConvergenceError);
+  // A motion that starts later than at zero.
+  CHECK(integrate(cabinet, GroundMotion({0, 0, 0}, std::vector<double>{5, 6, 7}), tilted(0.1)).peak_time == 5);
   RockingState state;
   refused([&] { advance(cabinet, {NAN, 0, 0}, state); }, "must be finite");
 }

@@ -13,8 +13,8 @@ namespace stickslip {
 struct RockingOptions {
   double rotation = 0;  ///< theta at the start [rad], finite
   double rate = 0;      ///< theta' at the start [rad/s], finite
-  bool settle =
-      false;  ///< continue under zero ground acceleration after the last sample until the block rests or falls
+  /// Continue under zero ground acceleration after the last sample until the block rests or falls.
+  bool settle = false;
   std::function<void()> progress{};  ///< called about once per second or more often; may throw to stop the work
 };
 

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,8 +51,8 @@ struct RockingResponse {
   /// overturning at turning points beyond alpha / 2, over p alpha; that of the load from the level of uplift at its
   /// maxima at rest; infinite without a decision. If tiny, the history hangs on round-off.
   double margin = std::numeric_limits<double>::infinity();
-  /// |d theta_end / d ln scale| / alpha with the ground motion scaled: an error of 1e-16 of the input grows to this times
-  /// 1e-16 in theta / alpha.
+  /// The largest |d theta / d ln scale| / alpha at the samples of the ground motion, which is scaled: an error of 1e-16
+  /// of the input grows to this times 1e-16 in theta / alpha. A block that has overturned does not count.
   double condition = 0;
   bool truncated = false;  ///< as ResponseOf::truncated
   std::string components = "axis";

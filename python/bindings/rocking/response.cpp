@@ -84,9 +84,9 @@ std::string remark_of(const Self& self) {
     return "whether a block overturns is not monotone in the scale of a record: it may stand at larger scales and "
            "overturn at smaller ones; see critical_scales";
   const double peak = motion_of(self).peak_acceleration();
-  if (r.time_rocking > 0 || !(peak > 0 && peak <= most_g) || load_ratio(block_of(self), motion_of(self)) >= 1)
-    return "";
-  if (load_ratio(block_of(self), motion_of(self)) * standard_gravity <= 1) return "";
+  if (r.time_rocking > 0 || !(peak > 0 && peak <= most_g)) return "";
+  const double load = load_ratio(block_of(self), motion_of(self));
+  if (load >= 1 || load * standard_gravity <= 1) return "";
   return "the block never rocks: the peak ground acceleration is " + digits(peak) + " m/s^2 (" +
          digits(peak / standard_gravity) + " g); if the accelerations are in g, give units=\"g\": at " + digits(peak) +
          " g it rocks";
