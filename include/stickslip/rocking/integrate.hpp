@@ -28,7 +28,7 @@ struct RockingOptions {
 ///                                plus eight per segment
 /// Between impacts the motion is a closed form, under vertical motion a power series: exact to round-off, which grows as
 /// e^(p t) between rests (RockingResponse::condition). It has overturned as soon as the rest of the record is known not to
-/// bring it back (ROCKING.md 4): with q = theta' + p (theta - alpha) and the bounded motion Theta under the whole record,
+/// bring it back: with q = theta' + p (theta - alpha) and the bounded motion Theta under the whole record,
 ///     sigma = q - q* > 0  and  alpha + min Theta + (sigma - max(d - d*, 0))/(2 p) > 0 from now on.
 /// Under vertical motion it has overturned at |theta| = pi/2, or after the record where q > 0.
 /// Cost: 60 ns a sample at rest; 0.8 us with an impact at every third sample.
