@@ -252,7 +252,7 @@ def plot_rocking_spectrum(
         axes.set_xlabel("period 2 pi/p [s]")
         axes.set_ylabel("peak rotation / alpha")
         if len(fell):
-            axes.legend(loc="upper left", fontsize=8)
+            axes.legend(loc="lower left", fontsize=8)
         below = f"alpha {digits(spectrum.alpha)} rad, restitution {digits(spectrum.restitution)}"
         put_title(axes, spectrum.motion, title, below)
     return figure
