@@ -4,6 +4,8 @@
 #include <array>
 #include <optional>
 
+#include "stickslip/base/requirements.hpp"
+
 namespace stickslip {
 
 /// A free-standing block that is slender and does not slip: small angles, and a restitution for the impacts of its base,

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "stickslip/base/requirements.hpp"
+
 namespace stickslip {
 
 /// What a block stands on: its base, or one corner.

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "stickslip/base/requirements.hpp"
+
 namespace stickslip {
 
 /// Behavior of a slider while the ground accelerates away from it faster than it can fall, N = g + a_z < 0.
