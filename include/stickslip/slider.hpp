@@ -139,8 +139,7 @@ class Slider {
   /// Slope of the ground [rad].
   double slope() const noexcept { return mounting_.slope(); }
 
-  /// Whether the slider is on level ground, slides both ways, has no stops, and has a spring that does not depend on
-  /// the normal force.
+  /// Whether the slider is on level ground, slides both ways and has no stops.
   bool plain() const noexcept { return plain_; }
 
  private:
@@ -157,8 +156,7 @@ class Slider {
 
   Law law_;
   Mounting mounting_;
-  bool plain_ =
-      detail::equal(mounting_.slope_degrees, 0) && !mounting_.one_way && !mounting_.stops && !mounting_.pendulum;
+  bool plain_ = detail::equal(mounting_.slope_degrees, 0) && !mounting_.one_way && !mounting_.stops;
 };
 
 namespace detail {

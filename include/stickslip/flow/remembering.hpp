@@ -2,9 +2,15 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <optional>
+#include <utility>
+#include <variant>
 
+#include "stickslip/base/equal.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/flow/collocation.hpp"
 #include "stickslip/flow/damped.hpp"
@@ -17,26 +23,48 @@
 
 namespace stickslip {
 
-/// Friction that is linear in the sliding distance, in closed form. A level that rises by k per meter is equivalent to
-/// constant friction with a spring whose stiffness is larger by k:
+/// Friction that is linear in the sliding distance. A level that rises by k per meter is equivalent to constant friction
+/// with a spring whose stiffness is larger by k:
 ///     d'' = a + g(t) - (wn^2 + k) d - c (d' - u).
 /// If wn^2 + k is negative, the spring pushes away from its center.
+class LinearLevel {
+ public:
+  /// @param stiffness       wn^2 + k [1/s^2]
+  /// @param usual_duration  time whose basis is precomputed without a damper [s]; the segments of a record have equal
+  ///                        length. With one, a step of usual duration would be computed in another way than an equal
+  ///                        one of a run that is split, and the last bits would differ
+  LinearLevel(double damping, double stiffness, double usual_duration) noexcept : stiffness_(stiffness) {
+    const double root = std::copysign(std::sqrt(std::abs(stiffness)), stiffness);
+    if (stiffness > 0 && !(damping > 0))
+      motion_.emplace<Harmonic>(root, usual_duration);
+    else
+      motion_.emplace<Damped>(damping, root);
+  }
+
+  double stiffness() const noexcept { return stiffness_; }
+  /// On a spring without a damper; else null.
+  const Harmonic* undamped() const noexcept { return std::get_if<Harmonic>(&motion_); }
+  /// Any other motion.
+  const Damped* damped() const noexcept { return std::get_if<Damped>(&motion_); }
+
+ private:
+  double stiffness_;
+  std::variant<std::monostate, Harmonic, Damped> motion_;
+};
+
+/// The flow of a LinearLevel, in closed form.
 class LinearLevelFlow {
  public:
-  /// @param slope     k, of the resistance [1/s^2]
+  /// @param level     held by reference
   /// @param friction  the part of the resistance that dissipates, at the start [m/s^2]
   /// @param wears     and its slope [1/s^2]
-  LinearLevelFlow(double damping, double stiffness, double slope, double friction, double wears, const Start& start,
-                  double duration)
-      : friction_(friction), wears_(wears) {
-    const double k = stiffness + slope;
-    if (k > 0 && !(damping > 0)) {
-      harmonic_.emplace(std::sqrt(k));
-      undamped_.emplace(harmonic_->flow(start, duration));
-    } else {
-      damped_.emplace(damping, std::copysign(std::sqrt(std::abs(k)), k));
-      flow_.emplace(*damped_, part_of(start, duration, k), reach(duration, k));
-    }
+  LinearLevelFlow(const LinearLevel& level, double friction, double wears, const Start& start, double duration)
+      : friction_(friction), wears_(wears), damped_(level.damped() && level.damped()->damping() > 0) {
+    const double k = level.stiffness();
+    if (level.undamped())
+      undamped_.emplace(level.undamped()->flow(start, duration));
+    else
+      flow_.emplace(*level.damped(), part_of(start, duration, k), reach(duration, k));
   }
   LinearLevelFlow(const LinearLevelFlow&) = delete;
   LinearLevelFlow& operator=(const LinearLevelFlow&) = delete;
@@ -47,7 +75,7 @@ class LinearLevelFlow {
   Progress at_horizon() const noexcept { return undamped_ ? undamped_->at_horizon() : flow_->at_horizon(); }
 
   /// Work on the damper up to time t [m^2/s^2].
-  double damped_work(double t) const noexcept { return damped_ && damped_->damping() > 0 ? flow_->damped_work(t) : 0; }
+  double damped_work(double t) const noexcept { return damped_ ? flow_->damped_work(t) : 0; }
   /// Work against friction up to time t [m^2/s^2].
   double friction_work(double t) const noexcept {
     const double way = t < horizon() ? at(t).distance : at_horizon().distance;
@@ -64,10 +92,8 @@ class LinearLevelFlow {
   }
 
   double friction_, wears_;
-  // On a spring without a damper, or any other motion.
-  std::optional<Harmonic> harmonic_;
+  bool damped_;
   std::optional<ClosedForm<Harmonic>> undamped_;
-  std::optional<Damped> damped_;
   std::optional<DampedFlow> flow_;
 };
 
@@ -78,7 +104,9 @@ class Remembering : public detail::LawFlows<Law> {
  public:
   static constexpr bool in_closed_form = form_of<Law> == Form::linear;
 
-  explicit Remembering(const Slider<Law>& slider) : detail::LawFlows<Law>(slider.law()), slider_(slider) {}
+  /// @param usual_duration  of most segments [s]
+  explicit Remembering(const Slider<Law>& slider, double usual_duration = std::numeric_limits<double>::quiet_NaN())
+      : detail::LawFlows<Law>(slider.law()), slider_(slider), usual_duration_(usual_duration) {}
 
   double pull(double x, double weight) const noexcept { return slider_.mounting().spring().under(weight) * x; }
   double drag(double speed) const noexcept { return slider_.damping() * speed; }
@@ -89,9 +117,8 @@ class Remembering : public detail::LawFlows<Law> {
     if constexpr (std::same_as<SlipStart, Start> && form_of<Now> == Form::linear) {
       const Now law = slider_.law().at(state);
       const double slope = law.slope(direction);
-      return LinearLevelFlow(slider_.damping(), slider_.stiffness(), slope,
-                             friction(law, state.displacement, 0, direction), detail::SpringLaw<Now> ? 0 : slope, start,
-                             duration);
+      return LinearLevelFlow(level(slider_.stiffness() + slope), friction(law, state.displacement, 0, direction),
+                             detail::SpringLaw<Now> ? 0 : slope, start, duration);
     } else {
       now_.emplace(slider_.at(state));
       return TaylorFlow<Now, SlipStart>(*now_, direction, state.displacement, start, duration);
@@ -101,17 +128,29 @@ class Remembering : public detail::LawFlows<Law> {
  private:
   using Now = std::remove_cvref_t<decltype(std::declval<const Law&>().at(State{}))>;
 
+  // The levels met last: a law has few slopes, to which it returns.
+  const LinearLevel& level(double stiffness) const {
+    for (const auto& one : levels_)
+      if (one && detail::equal(one->stiffness(), stiffness)) return *one;
+    auto& one = levels_[std::exchange(oldest_, (oldest_ + 1) % levels_.size())];
+    return one.emplace(slider_.damping(), stiffness, usual_duration_);
+  }
+
   const Slider<Law>& slider_;
+  double usual_duration_;
   mutable std::optional<Slider<Now>> now_;
+  mutable std::array<std::optional<LinearLevel>, 8> levels_;
+  mutable std::size_t oldest_ = 0;
 };
 
 /// Makes flows that support the law under any load.
 template <FrictionLaw Law>
-auto general_flows(const Slider<Law>& slider) {
+auto general_flows(const Slider<Law>& slider,
+                   [[maybe_unused]] double usual_duration = std::numeric_limits<double>::quiet_NaN()) {
   if constexpr (form_of<Law> == Form::numeric)
     return Collocating<Law>(slider);
   else if constexpr (MemoryLaw<Law>)
-    return Remembering<Law>(slider);
+    return Remembering<Law>(slider, usual_duration);
   else
     return Taylor<Law>(slider);
 }

@@ -147,7 +147,7 @@ class EngineOf final : public Engine {
   void record_any(const GroundMotion& motion, Contact contact, State& state, AnySink& sink,
                   const HistorySpans& histories) const;
   template <class Place, class AnySegments, class AnySink, class Go, class Else>
-  void move_any(AnySegments& segments, double usual_duration, State& state, AnySink& sink, Go&& go,
+  void move_any(AnySegments& segments, bool weighed, double usual_duration, State& state, AnySink& sink, Go&& go,
                 Else&& otherwise) const;
 
   const Slider<Law>& slider_;
@@ -158,7 +158,7 @@ class EngineOf final : public Engine {
 
 template <FrictionLaw Law>
 void EngineOf<Law>::move(Segments<Segment>& segments, double usual_duration, State& state, Sink& sink) const {
-  with_flows(slider_, usual_duration, [&]<class Flows>(const Flows& flows) {
+  with_flows(slider_, false, usual_duration, [&]<class Flows>(const Flows& flows) {
     move_as<Flows, typename Flows::Place>(
         segments, state, sink,
         [&flows](const Segment& segment, auto& place, auto& observer) { advance(flows, segment, place, observer); });
@@ -169,7 +169,7 @@ template <FrictionLaw Law>
 void EngineOf<Law>::move(Segments<LoadSegment>& segments, double usual_duration, Contact contact, State& state,
                          Sink& sink) const {
   const Bounds bounds{mounting().stops, mounting().one_way};
-  with_flows(slider_, usual_duration, [&]<class Flows>(const Flows& flows) {
+  with_flows(slider_, true, usual_duration, [&]<class Flows>(const Flows& flows) {
     move_as<Flows, StateOf<Law>>(segments, state, sink,
                                  [&flows, bounds, contact](const LoadSegment& segment, auto& place, auto& observer) {
                                    advance(flows, segment, bounds, contact, place, observer);
@@ -215,7 +215,7 @@ void EngineOf<Law>::record_any(const GroundMotion& motion, State& state, AnySink
   } else {
     SampledSegments segments(GroundMotion::Pieces(motion), motion.segments(), *this, sink, histories);
     move_any<BareState>(
-        segments, motion.dt(), state, sink,
+        segments, false, motion.dt(), state, sink,
         [](const auto& flows, const Segment& segment, auto& place, auto& observer)
             __attribute__((always_inline)) { advance(flows, segment, place, observer); },
         [&] { move(segments, motion.dt(), state, sink); });
@@ -227,8 +227,9 @@ void EngineOf<Law>::record_any(const GroundMotion& motion, Contact contact, Stat
                                const HistorySpans& histories) const {
   const Bounds bounds{mounting().stops, mounting().one_way};
   SampledSegments segments(LoadPieces(motion, mounting().slope()), motion.segments(), *this, sink, histories);
+  const bool weighed = motion.has_vertical() || mounting().slope_degrees > 0;
   move_any<StateOf<Law>>(
-      segments, motion.dt(), state, sink,
+      segments, weighed, motion.dt(), state, sink,
       [ bounds, contact ](const auto& flows, const LoadSegment& segment, auto& place, auto& observer)
           __attribute__((always_inline)) { advance(flows, segment, bounds, contact, place, observer); },
       [&] { move(segments, motion.dt(), contact, state, sink); });
@@ -236,12 +237,13 @@ void EngineOf<Law>::record_any(const GroundMotion& motion, Contact contact, Stat
 /// Where the flows are cheap, with segments and sink inlined into the event loop; otherwise as for any.
 template <FrictionLaw Law>
 template <class Place, class AnySegments, class AnySink, class Go, class Else>
-void EngineOf<Law>::move_any(AnySegments& segments, [[maybe_unused]] double usual_duration, State& state, AnySink& sink,
+void EngineOf<Law>::move_any(AnySegments& segments, [[maybe_unused]] bool weighed,
+                             [[maybe_unused]] double usual_duration, State& state, AnySink& sink,
                              [[maybe_unused]] Go&& go, Else&& otherwise) const {
   if constexpr (form_of<Law> != Form::constant) {
     otherwise();
   } else {
-    with_flows(slider_, usual_duration, [&]<class Flows>(const Flows& flows) {
+    with_flows(slider_, weighed, usual_duration, [&]<class Flows>(const Flows& flows) {
       if constexpr (is_cheap<Flows>) {
         Place moving(state);
         move_inlined(

@@ -26,14 +26,16 @@ template <FrictionLaw Law, class Work>
 
 /// The same for any slider: closed forms if the resistance is constant or linear in the distance slid, else Taylor
 /// series.
+/// @param weighed  whether the normal force may differ from the weight; only then is a pendulum not a spring
 template <FrictionLaw Law, class Work>
-[[gnu::always_inline]] inline auto with_flows(const Slider<Law>& slider, double usual_duration, Work&& work) {
+[[gnu::always_inline]] inline auto with_flows(const Slider<Law>& slider, bool weighed, double usual_duration,
+                                              Work&& work) {
   if constexpr (form_of<Law> == Form::constant) {
-    if (slider.mounting().pendulum) [[unlikely]]
+    if (weighed && slider.mounting().pendulum) [[unlikely]]
       return work(Taylor<Law>(slider));
     return with_block_flows(slider, usual_duration, work);
   } else {
-    return work(general_flows(slider));
+    return work(general_flows(slider, usual_duration));
   }
 }
 
@@ -44,7 +46,7 @@ auto with_harmonic_flows(const Slider<Law>& slider, double omega, double usual_d
     if (equal(slider.stiffness(), 0) && equal(slider.damping(), 0))
       return work(BlockFlows(slider.law(), Sinusoidal(omega, usual_duration)));
   }
-  return work(general_flows(slider));
+  return work(general_flows(slider, usual_duration));
 }
 
 }  // namespace stickslip::detail
