@@ -107,6 +107,7 @@ void bind_pulse_chain(py::module_& m);
 void bind_transport(py::module_& m);
 void bind_thesis(py::module_& m);
 void bind_build_info(py::module_& m);
+void bind_number_texts(py::module_& m);
 
 /// Binds a law of the library, in friction/<law>.cpp. (StaticKinetic is one class.)
 template <FrictionLaw Law>

@@ -114,6 +114,7 @@ PYBIND11_MODULE(_core, m) {
       "to_vector", [](const py::object& values, const std::string& name) { return to_array(to_vector(values, name)); },
       py::arg("values"), py::arg("name"),
       "Convert to a one-dimensional array of real numbers, as all functions do; `name` is for error messages.");
+  bind_number_texts(m);
   for (const auto& [name, thing] : m.attr("__dict__").cast<py::dict>())
     if (py::isinstance<py::type>(thing)) make_safe(py::reinterpret_borrow<py::type>(thing));
   make_plain(m);

@@ -28,6 +28,8 @@ from ._core import (
     Response,
     StructureResponse,
     build_info,
+    number_list,
+    number_texts,
 )
 from ._files import replacing
 from ._optional import optional
@@ -133,6 +135,9 @@ def write_csv(columns: Columns, units: Mapping[str, str], file: str | os.PathLik
                     )
                     continue
                 part = column[begin : begin + 4096]
+                if part.dtype == np.float64:
+                    cells.append(number_texts(part))
+                    continue
                 plain = part.dtype.kind in "iuf"  # no cell that would need quotation marks
                 cells.append(map(repr if plain else cell, part.tolist()))
             rows = map(",".join, zip(*cells))
@@ -283,19 +288,21 @@ def _results(response: Response | PlanarResponse) -> dict[str, Any]:
 
 def json_text(document: Any) -> str:
     """A document as JSON: exact doubles, arrays as lists, null for NaN and infinity."""
-    return json.dumps(_plain(document), allow_nan=False)
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {name: _plain(one) for name, one in value.items()}
-    if isinstance(value, np.ndarray):
-        if value.dtype.kind != "f" or np.isfinite(value).all():
-            return value.tolist()
-        value = value.tolist()
-    if isinstance(value, (list, tuple)):
-        return [_plain(one) for one in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
+    if isinstance(document, np.ndarray) and document.ndim == 1:
+        if document.dtype == np.float64:
+            return number_list(document)
+        document = document.tolist()
+    if isinstance(document, float) and not math.isfinite(document):
+        return "null"
+    try:
+        return json.dumps(document, allow_nan=False)
+    except (TypeError, ValueError):  # it holds arrays, or numbers that are null
+        if isinstance(document, dict):
+            pairs = (f"{json.dumps(name)}: {json_text(one)}" for name, one in document.items())
+            return "{" + ", ".join(pairs) + "}"
+        if isinstance(document, (list, tuple, np.ndarray)):
+            return "[" + ", ".join(map(json_text, document)) + "]"
+        raise
 
 
 def has_floors(response: StructureResponse) -> bool:

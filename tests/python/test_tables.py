@@ -10,7 +10,8 @@ import xml.etree.ElementTree
 import numpy as np
 import pytest
 import stickslip as ss
-from stickslip._tables import Repeated, write_csv
+from stickslip._core import number_list, number_texts
+from stickslip._tables import Repeated, json_text, write_csv
 
 UNITS = {
     "ground_acceleration": "m/s^2",
@@ -252,3 +253,33 @@ def test_json_has_every_number_and_no_nan(response):
         assert document["units"].get(name, "") == UNITS[name]
     assert [one["time"] for one in document["events"]] == response.events["time"].tolist()
     assert [one["kind"] for one in document["events"]] == response.events["kind"].tolist()
+
+
+def test_numbers_are_written_as_repr_does():
+    # A double may need 1 to 17 digits, with the point or the exponent anywhere.
+    rng = np.random.default_rng(1)
+    bits = rng.integers(0, 2**64, 20_000, dtype=np.uint64).view(np.float64)
+    decimal = rng.integers(1, 10**6, 2000) * 10.0 ** rng.integers(-12, 20, 2000)
+    edges = [0.0, -0.0, 1e-4, 9.999e-5, 1e16, 9999999999999998.0, 5e-324, 1.7976931348623157e308]
+    for values in (bits, decimal, np.array([*edges, np.inf, -np.inf, np.nan])):
+        assert number_texts(values) == [repr(value) for value in values.tolist()]
+    finite = bits[np.isfinite(bits)]
+    assert json.loads(number_list(finite)) == finite.tolist()
+    assert number_list(finite[::2][:2]) == f"[{finite[0].item()!r}, {finite[2].item()!r}]"
+
+
+def test_json_of_arrays_in_lists_of_any_depth():
+    document = {
+        "rows": [{"at": np.array([1.0, np.nan]), "n": 1}, {"at": (np.inf, None), "n": True}],
+        "table": np.array([[0.1, -np.inf], [1e-7, 2.0]]),
+        "whole": np.arange(3),
+        "names": np.array(["a", 'b"']),
+    }
+    assert json.loads(json_text(document)) == {
+        "rows": [{"at": [1.0, None], "n": 1}, {"at": [None, None], "n": True}],
+        "table": [[0.1, None], [1e-7, 2.0]],
+        "whole": [0, 1, 2],
+        "names": ["a", 'b"'],
+    }
+    with pytest.raises(TypeError, match="not JSON serializable"):
+        json_text({"a": [object()]})
