@@ -57,6 +57,7 @@
 #include "stickslip/theory/displacement_distribution.hpp"
 #include "stickslip/theory/equivalent_linearization.hpp"
 #include "stickslip/theory/noise.hpp"
+#include "stickslip/theory/overturning.hpp"
 #include "stickslip/theory/pulse_chain.hpp"
 #include "stickslip/theory/pulse_response.hpp"
 #include "stickslip/theory/pulse_superposition.hpp"

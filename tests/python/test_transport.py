@@ -346,3 +346,20 @@ def test_levels_of_peaks_and_times_are_checked():
     ):
         with pytest.raises(ValueError, match=message):
             call()
+
+
+def test_overturning_is_a_list_of_estimates():
+    block = ss.SlenderBlock(p=2, alpha=0.2, restitution=0.9)
+    transport = theory.Transport(tolerance=0.3)
+    falls = transport.overturning(block, 0.03, [0.5, 1, 2])
+    assert [type(one) for one in falls] == [ss.Estimate] * 3
+    assert 0 <= falls[0].value < falls[1].value < falls[2].value < 1
+    assert falls[2].error < 0.3 * falls[2].value
+    half = transport.overturning(block, 0.03, [2], ratio=0.5)
+    assert half[0].value > falls[2].value
+    with pytest.raises(ValueError, match="covers white noise and noise from a filter"):
+        transport.overturning(
+            block, ss.PoissonPulses(rate=1, half_width=0.1, sigma=1, duration=10), [1]
+        )
+    with pytest.raises(ValueError, match="ratio must be positive, got -1"):
+        transport.overturning(block, 0.03, [1], ratio=-1)

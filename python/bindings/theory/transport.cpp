@@ -1,5 +1,6 @@
 #include "stickslip/theory/transport.hpp"
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <variant>
@@ -7,6 +8,7 @@
 #include <pybind11/numpy.h>
 
 #include "parts.hpp"
+#include "stickslip/theory/overturning.hpp"
 #include "theory/displacement_distribution.hpp"
 #include "theory/theory.hpp"
 
@@ -46,6 +48,17 @@ TransportStationary stationary_motion(const Transport& self, const AnySlider& sl
                                       const DistributionSource& excitation) {
   const py::gil_scoped_release released;
   return self.stationary(slider, transport_excitation(excitation), &check_for_interrupt);
+}
+
+std::vector<Estimate> overturning(const Transport& self, const SlenderBlock& block, const DistributionSource& noise,
+                                  const py::object& times, double ratio) {
+  if (std::holds_alternative<PoissonPulses>(noise))
+    throw std::invalid_argument("Transport.overturning: covers white noise and noise from a filter of two states");
+  const std::vector<double> at = to_vector(times, "Transport.overturning: times", "s");
+  const auto two_state = std::get<theory::TwoStateNoise>(transport_excitation(noise));
+  const py::gil_scoped_release released;
+  return theory::overturning_probability(
+      block, two_state, at, {.tolerance = self.tolerance(), .ratio = ratio, .progress = &check_for_interrupt});
 }
 
 /// The peak with what it was made of.
@@ -462,6 +475,46 @@ Raises
 ------
 ValueError, ConvergenceError
     As for `predict`.)")
+      .def("overturning", &overturning, py::arg("block"), py::arg("excitation"), py::arg("times"), py::kw_only(),
+           py::arg("ratio") = std::numeric_limits<double>::infinity(),
+           R"(Probability that a slender block that starts at rest has overturned.
+
+A function of the state is carried backward from f = 1 where the block is lost; after k steps it is the probability to
+be lost within k steps,
+
+    f_(k+1)(y, v, z) = E f_k(S(y, v; n(z)), z'),
+
+with S the exact motion with all impacts, y = theta / alpha. By symmetry a block with equal sides is a ball that bounces
+on a half line, where each bounce changes the sign of the noise.
+
+Parameters
+----------
+block : SlenderBlock
+    With a restitution of at least 0.2, and one alpha at most twice the other.
+excitation : float, Spectrum, ShapingFilter or GaussianExcitation
+    Noise as for `predict`: white, also held, or filtered with a frequency from 0.5 p to 50 p. It gives the rate a
+    deviation (white: sqrt(pi p S0)/g) of 0.04 to 1 times p alpha.
+times : array_like
+    Times [s], shape (N,), finite, at least 0, increasing.
+ratio : float, optional
+    The |theta| over alpha at which the block counts as overturned before, positive; default: where it is certain not
+    to come back. A finite one gives the probability that the peak exceeds it.
+
+Returns
+-------
+list of Estimate
+    N probabilities with their errors, which are numerical: the last change by the refinement of steps and grids, until
+    it is below `tolerance`, which is at least 0.005 here.
+
+Raises
+------
+ValueError
+    What is not covered, or a value out of range.
+
+Notes
+-----
+Takes 1 to 20 s under white noise, 20 s to some minutes under filtered noise; docs/transport.md compares it with
+simulation.)")
       .def("__repr__",
            [](const Transport& t) { return "Transport(tolerance=" + detail::shortest(t.tolerance()) + ")"; });
   def_theory(type);
