@@ -31,6 +31,7 @@
 #include "stickslip/rocking/integrate.hpp"
 #include "stickslip/rocking/outcomes.hpp"
 #include "stickslip/rocking/response.hpp"
+#include "stickslip/rocking/rocking_block.hpp"
 #include "stickslip/rocking/slender_block.hpp"
 #include "stickslip/rocking/state.hpp"
 #include "stickslip/sliding/any_slider.hpp"

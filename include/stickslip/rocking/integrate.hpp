@@ -5,6 +5,7 @@
 
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/rocking/response.hpp"
+#include "stickslip/rocking/rocking_block.hpp"
 #include "stickslip/rocking/slender_block.hpp"
 #include "stickslip/rocking/state.hpp"
 
@@ -34,6 +35,16 @@ struct RockingOptions {
 /// Cost: 60 ns a sample at rest; 0.8 us with an impact at every third sample.
 RockingResponse integrate(const SlenderBlock& block, const GroundMotion& motion, const RockingOptions& options = {});
 
+/// Integrate the motion of a rigid block under a ground motion, with every uplift, impact, slip, stick, liftoff and landing;
+/// see RockingBlock for the equations. A tilt at the start is about a corner that does not slip.
+/// @throws std::invalid_argument  a start that is not finite, or tilted by pi/2 or more
+/// @throws ConvergenceError       it slips where friction decides nothing, with mu above `painleve_friction`; with `settle`,
+///                                a block that never comes to rest: impacts that lose nothing, or no friction; more events
+///                                than 1,000,000 plus eight per segment
+/// Each mode is a Taylor series or a polynomial, with its first event: exact to round-off, which grows as e^(p t) between
+/// rests. It has overturned at |theta| = pi/2, where its side meets the ground. Level ground.
+RockingResponse integrate(const RockingBlock& block, const GroundMotion& motion, const RockingOptions& options = {});
+
 /// Ground acceleration over a segment, linear from start to end.
 struct RockingGround {
   double duration;                              ///< [s], finite, at least 0
@@ -46,5 +57,9 @@ struct RockingGround {
 ///               rest of the record that is at |theta| = pi/2
 /// @throws std::invalid_argument  a number that is not finite; G <= 0
 void advance(const SlenderBlock& block, const RockingGround& segment, RockingState& state);
+/// The same of a rigid block, which may leave the ground.
+/// @throws std::invalid_argument  a number that is not finite
+/// @throws ConvergenceError       as `integrate`
+void advance(const RockingBlock& block, const RockingGround& segment, RockingState& state);
 
 }  // namespace stickslip

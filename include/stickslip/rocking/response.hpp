@@ -16,6 +16,10 @@ namespace stickslip {
 enum class RockingEventKind : std::uint8_t {
   uplift,      ///< it starts to rock, from rest (or rocks already at the start)
   impact,      ///< its base hits the ground; the rate is that before the impact
+  slip,        ///< its base or its corner starts to slip, or slips the other way
+  stick,       ///< its corner stops slipping, and it rocks on
+  liftoff,     ///< it leaves the ground
+  landing,     ///< it comes back from flight, on a corner or on its base
   rest,        ///< it comes to rest on its base
   overturned,  ///< it is certain that it never comes back
   end          ///< the motion is over
@@ -26,11 +30,17 @@ struct RockingEvent {
   double rotation;  ///< theta [rad]
   double rate;      ///< theta' [rad/s]
   RockingEventKind kind;
+  double displacement = 0;  ///< of the middle of the base [m]
+  double speed = 0;         ///< with which the corner arrived, downward [m/s]; of a RockingBlock
+  std::int8_t side = 0;     ///< the corner that arrived, or on which it stands: +1 right, -1 left, 0 the base
 };
 
-/// The motion of a block under one ground motion. Energies are per unit moment of inertia about a corner [1/s^2]:
-/// `elastic` is the potential energy p^2 (s alpha theta - theta^2/2) under gravity, `dissipated` what a fall on its side
-/// takes.
+/// The motion of a block under one ground motion.
+///
+/// Energies of a SlenderBlock are per unit moment of inertia about a corner [1/s^2]: `elastic` is the potential energy
+/// p^2 (s alpha theta - theta^2/2) under gravity, `dissipated` what a fall on its side takes. Those of a RockingBlock are per
+/// unit mass [m^2/s^2]: `elastic` is g times the rise of the center of mass, `dissipated` the work of friction, `impact`
+/// includes its fall on its side.
 struct RockingResponse {
   /// theta at the samples of the motion [rad]. With `settle`, if the block still rocks at the last sample, further
   /// samples follow with the last time step, up to the first at or after rest. Once it lies on its side, +-pi/2.
@@ -43,16 +53,28 @@ struct RockingResponse {
   int overturned = 0;     ///< +1 to the right, -1 to the left, 0 if it stands
   /// When it is certain that it never comes back; NaN if it stands [s].
   double overturned_at = std::numeric_limits<double>::quiet_NaN();
-  std::size_t impacts = 0;  ///< those faster than 1e-3 p alpha; the others are too many to count
-  std::size_t uplifts = 0;  ///< from rest
-  double time_rocking = 0;  ///< [s]
+  /// Of the base, and landings: those faster than 1e-3 p alpha, or 1 mm/s at a corner of a RockingBlock; the others are too
+  /// many to count.
+  std::size_t impacts = 0;
+  std::size_t uplifts = 0;   ///< from rest
+  std::size_t liftoffs = 0;  ///< into flight
+  /// Impacts at which the corner slipped, so that a given restitution could not hold: they are those of a lever of 1.
+  std::size_t impacts_with_slip = 0;
+  /// Displacements relative to the ground at the same times [m], of a RockingBlock: of the middle of the base, and of that of
+  /// the top. Empty for a SlenderBlock, which does not slide.
+  std::vector<double> displacement, top_displacement;
+  double residual = 0;          ///< displacement of the base at the end: what it has slid and walked [m]
+  double sliding_distance = 0;  ///< path that the base or a corner slips [m]
+  double time_sliding = 0;      ///< [s]
+  double time_rocking = 0;      ///< [s]
   Energy energy;
   /// How close the nearest decision was, relative to what decides: the distance from the stable manifold of the
   /// overturning at turning points beyond alpha / 2, over p alpha; that of the load from the level of uplift at its
   /// maxima at rest; infinite without a decision. If tiny, the history hangs on round-off.
   double margin = std::numeric_limits<double>::infinity();
   /// The largest |d theta / d ln scale| / alpha at the samples of the ground motion, which is scaled: an error of 1e-16
-  /// of the input grows to this times 1e-16 in theta / alpha. A block that has overturned does not count.
+  /// of the input grows to this times 1e-16 in theta / alpha. A block that has overturned does not count. NaN for a
+  /// RockingBlock: its derivatives are not computed; compare two scales.
   double condition = 0;
   bool truncated = false;  ///< as ResponseOf::truncated
   std::string components = "axis";
