@@ -115,14 +115,14 @@ class RockingRecorder final : public RockingSink, public EventLog<double>, publi
     }
   }
   void lose(double energy) override { response_.energy.impact += energy; }
-  void fall(double energy) override { response_.energy.dissipated += energy; }
+  void fall(double energy) override { response_.energy.damped += energy; }
   void decide(double margin) { response_.margin = std::min(response_.margin, margin); }
 
   bool has_overturned() const noexcept { return response_.overturned != 0; }
   void overturned(double time, const RockingState& state) {
     response_.overturned = state.overturned;
     response_.overturned_at = time;
-    log_overturning_ = {time, state.rotation, state.rate, RockingEventKind::overturned};
+    log_overturning_ = {time, state.rotation, state.rate, RockingEventKind::overturned, state.rate};
   }
   // How far theta depends on the logarithm of the scale.
   void sample(const RockingState& state) {
@@ -135,7 +135,8 @@ class RockingRecorder final : public RockingSink, public EventLog<double>, publi
     for (const EventAt<double>& one : take()) {
       if (log_overturning_ && log_overturning_->time <= one.time)
         response.events.push_back(*std::exchange(log_overturning_, std::nullopt));
-      response.events.push_back({one.time, one.displacement, one.velocity, kind_of(one.kind)});
+      const double r = one.kind == EventKind::impact ? block_.restitution() : 1;
+      response.events.push_back({one.time, one.displacement, one.velocity, kind_of(one.kind), r * one.velocity});
     }
     if (response.overturned == 0) return;
     response.peak = quarter_turn;

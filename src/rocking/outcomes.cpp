@@ -13,24 +13,25 @@ namespace {
 
 struct Stopped {};
 
-RockingOutcome outcome(const SlenderBlock& block, const GroundMotion& motion, const RockingOptions& options) {
+template <class Block>
+RockingOutcome outcome(const Block& block, const GroundMotion& motion, const RockingOptions& options) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   RockingOutcome found;
   detail::attempt(
       [&] {
         const RockingResponse r = integrate(block, motion, options);
-        found = {r.peak, r.peak_ratio, r.overturned, r.overturned_at, r.impacts, r.margin, r.condition};
+        found = {r.peak,   r.peak_ratio, r.overturned, r.overturned_at,    r.impacts,
+                 r.margin, r.condition,  r.residual,   r.sliding_distance, r.liftoffs};
       },
       [&](const char* message) { found = {.peak = nan, .peak_ratio = nan, .failure = message}; });
   return found;
 }
 
-}  // namespace
+using MotionOf = std::function<void(std::size_t, const std::function<void(const GroundMotion&)>&)>;
 
-std::vector<RockingOutcome> rocking_outcomes(
-    std::size_t runs, const std::function<const SlenderBlock&(std::size_t)>& block_of,
-    const std::function<void(std::size_t, const std::function<void(const GroundMotion&)>&)>& motion_of,
-    const RockingRunOptions& options) {
+template <class Block>
+std::vector<RockingOutcome> outcomes_of(std::size_t runs, const std::function<const Block&(std::size_t)>& block_of,
+                                        const MotionOf& motion_of, const RockingRunOptions& options) {
   std::vector<RockingOutcome> outcomes(runs);
   std::atomic<bool> stopped = false;
   std::atomic<std::size_t> given = 0, done = 0;
@@ -51,8 +52,9 @@ std::vector<RockingOutcome> rocking_outcomes(
   return outcomes;
 }
 
-std::vector<ScaleRange> critical_scales(const SlenderBlock& block, const GroundMotion& motion, double up_to,
-                                        std::size_t steps, const std::function<void()>& progress) {
+template <class Block>
+std::vector<ScaleRange> scales_of(const Block& block, const GroundMotion& motion, double up_to, std::size_t steps,
+                                  const std::function<void()>& progress) {
   detail::require(std::isfinite(up_to) && up_to > 0, "critical_scales: up_to must be positive and finite", up_to);
   detail::require(steps >= 1, "critical_scales: steps must be at least 1", static_cast<double>(steps));
   RockingOptions how;
@@ -87,6 +89,28 @@ std::vector<ScaleRange> critical_scales(const SlenderBlock& block, const GroundM
     last = scale;
   }
   return ranges;
+}
+
+}  // namespace
+
+std::vector<RockingOutcome> rocking_outcomes(std::size_t runs,
+                                             const std::function<const SlenderBlock&(std::size_t)>& block_of,
+                                             const MotionOf& motion_of, const RockingRunOptions& options) {
+  return outcomes_of(runs, block_of, motion_of, options);
+}
+std::vector<RockingOutcome> rocking_outcomes(std::size_t runs,
+                                             const std::function<const RockingBlock&(std::size_t)>& block_of,
+                                             const MotionOf& motion_of, const RockingRunOptions& options) {
+  return outcomes_of(runs, block_of, motion_of, options);
+}
+
+std::vector<ScaleRange> critical_scales(const SlenderBlock& block, const GroundMotion& motion, double up_to,
+                                        std::size_t steps, const std::function<void()>& progress) {
+  return scales_of(block, motion, up_to, steps, progress);
+}
+std::vector<ScaleRange> critical_scales(const RockingBlock& block, const GroundMotion& motion, double up_to,
+                                        std::size_t steps, const std::function<void()>& progress) {
+  return scales_of(block, motion, up_to, steps, progress);
 }
 
 }  // namespace stickslip

@@ -75,25 +75,26 @@ class RigidRecorder final : public RigidSink, public EventLog<RockingEvent>, pub
   void event(EventKind kind, double time, const RockingState& state) override {
     switch (kind) {
       case EventKind::arrest:
-        add(RockingEventKind::rest, time, state);
+        add(RockingEventKind::rest, time, state, 0);
         break;
       case EventKind::end:
-        add(RockingEventKind::end, time, state);
+        add(RockingEventKind::end, time, state, 0);
         break;
       default:
         if (state.mode == RockingMode::flight) {
-          happens(RockingEventKind::liftoff, time, state, 0, 0);
+          happens(RockingEventKind::liftoff, time, state, 0, 0, state.rate);
           break;
         }
         if (on_corner(state.mode)) {
           if (equal(state.rotation, 0) && equal(state.rate, 0)) ++response_.uplifts;
-          add(RockingEventKind::uplift, time, state, 0, sign(state.mode));
+          add(RockingEventKind::uplift, time, state, sign(state.mode));
         }
-        if (state.slip != 0) add(RockingEventKind::slip, time, state, 0, on_corner(state.mode) ? sign(state.mode) : 0);
+        if (state.slip != 0) add(RockingEventKind::slip, time, state, on_corner(state.mode) ? sign(state.mode) : 0);
     }
   }
-  void happens(RockingEventKind kind, double time, const RockingState& state, double speed, double side) override {
-    add(kind, time, state, speed, side);
+  void happens(RockingEventKind kind, double time, const RockingState& state, double side, double speed,
+               double after) override {
+    add(kind, time, state, side, speed, after);
     if (kind == RockingEventKind::liftoff) ++response_.liftoffs;
     if ((kind == RockingEventKind::impact || kind == RockingEventKind::landing) && speed > 1e-3) ++response_.impacts;
     if (kind != RockingEventKind::overturned) return;
@@ -102,6 +103,7 @@ class RigidRecorder final : public RigidSink, public EventLog<RockingEvent>, pub
     response_.overturned_at = when(time);
   }
   void lose(double energy) override { response_.energy.impact += energy; }
+  void fall(double energy) override { response_.energy.damped += energy; }
   void slipped() override { ++response_.impacts_with_slip; }
   void decide(double margin) { response_.margin = std::min(response_.margin, margin); }
 
@@ -117,12 +119,15 @@ class RigidRecorder final : public RigidSink, public EventLog<RockingEvent>, pub
   }
 
  private:
-  void add(RockingEventKind kind, double time, const RockingState& state, double speed = 0, double side = 0) {
+  void add(RockingEventKind kind, double time, const RockingState& state, double side) {
+    add(kind, time, state, side, 0, state.rate);
+  }
+  void add(RockingEventKind kind, double time, const RockingState& state, double side, double speed, double after) {
     count_work();
-    EventLog::add(
-        {}, time,
-        {0, state.rotation, state.rate, kind, base_displacement(block_, state), speed, static_cast<std::int8_t>(side)},
-        {});
+    EventLog::add({}, time,
+                  {0, state.rotation, state.rate, kind, after, base_displacement(block_, state), speed,
+                   static_cast<std::int8_t>(side)},
+                  {});
   }
   void reach(double rotation, double time) {
     const double size = std::abs(rotation);

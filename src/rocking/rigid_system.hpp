@@ -58,10 +58,13 @@ class RigidSink {
   /// Of the event loop: `breakaway` and `reversal` out of rest, `arrest`.
   virtual void event(EventKind kind, double time, const RockingState& state) = 0;
   /// @param speed  at which a corner arrived [m/s]
-  virtual void happens(RockingEventKind /*kind*/, double /*time*/, const RockingState&, double /*speed*/,
-                       double /*side*/) {}
+  /// @param after  theta' after it [rad/s]
+  virtual void happens(RockingEventKind /*kind*/, double /*time*/, const RockingState&, double /*side*/,
+                       double /*speed*/, double /*after*/) {}
   /// Energy lost in an impact, per unit mass [m^2/s^2].
   virtual void lose(double /*energy*/) {}
+  /// The same in the fall on its side.
+  virtual void fall(double /*energy*/) {}
   /// An impact in which the given restitution could not hold.
   virtual void slipped() {}
 
@@ -201,14 +204,14 @@ class RigidSystem {
         state_.velocity = 0;
         how_.smooth = true;
         watch(arm(block_, state_), state_.slip);
-        sink.happens(RockingEventKind::slip, now_, state_, 0, sign(state_.mode));
+        sink.happens(RockingEventKind::slip, now_, state_, sign(state_.mode), 0, state_.rate);
         break;
       case Event::lifts: {
         const double side = state_.mode == RockingMode::slide ? 2 : sign(state_.mode);
         fly();
         how_.lifts = side;
         how_.smooth = true;
-        sink.happens(RockingEventKind::liftoff, now_, state_, 0, on_side(side));
+        sink.happens(RockingEventKind::liftoff, now_, state_, on_side(side), 0, state_.rate);
         break;
       }
       case Event::paradox:
@@ -354,8 +357,8 @@ class RigidSystem {
     }
     on_one(0);
     if (state_.slip == before) return;  // its velocity has merely touched zero
-    sink.happens(state_.slip != 0 ? RockingEventKind::slip : RockingEventKind::stick, now_, state_, 0,
-                 sign(state_.mode));
+    sink.happens(state_.slip != 0 ? RockingEventKind::slip : RockingEventKind::stick, now_, state_, sign(state_.mode),
+                 0, state_.rate);
   }
 
   void land(RigidSink& sink) {
@@ -381,7 +384,7 @@ class RigidSystem {
       impact = corner_impact(block_, v, arrives, r);
       if (!impact.consistent) refuse();
     }
-    sink.happens(flew ? RockingEventKind::landing : RockingEventKind::impact, now_, arrived, speed, arrives);
+    const double arrived_at = now_;
     how_ = {};
     state_.rate = impact.after.w;
     state_.slip = static_cast<std::int8_t>(impact.slip);
@@ -390,6 +393,8 @@ class RigidSystem {
       impact.after = {impact.slip == 0 ? 0 : slipping(impact), 0, 0};
       state_.rate = 0;
     }
+    sink.happens(flew ? RockingEventKind::landing : RockingEventKind::impact, arrived_at, arrived, arrives, speed,
+                 impact.after.w);
     sink.lose(before - kinetic_energy(block_, impact.after));
     if (flat && !equal(impact.side, 0) && !impact.lever &&
         !equal(impact.side > 0 ? block_.lever_right() : block_.lever_left(), 1))
@@ -410,12 +415,13 @@ class RigidSystem {
     state_.velocity = impact.slip == 0 ? 0 : impact.after.x + impact.after.w * arm(block_, state_).y;
     on_one(impact.slip);
     if (state_.mode == RockingMode::flight) {
-      sink.happens(RockingEventKind::liftoff, now_, state_, 0, impact.side);
+      sink.happens(RockingEventKind::liftoff, now_, state_, impact.side, 0, state_.rate);
       return;
     }
     const bool slid = arrived.slip != 0, slides = state_.slip != 0;
     if (slid != slides)
-      sink.happens(slides ? RockingEventKind::slip : RockingEventKind::stick, now_, state_, 0, impact.side);
+      sink.happens(slides ? RockingEventKind::slip : RockingEventKind::stick, now_, state_, impact.side, 0,
+                   state_.rate);
   }
   // The speed of a corner after an impact.
   double slipping(const RigidImpact& impact) const noexcept {
@@ -455,8 +461,8 @@ class RigidSystem {
     state_.rotation = std::copysign(std::numbers::pi / 2, side);
     state_.rate = state_.velocity = state_.rise = state_.climb = 0;
     state_.slip = 0;
-    sink.happens(RockingEventKind::overturned, now_, arrived, 0, side);
-    sink.lose(before - energy());
+    sink.happens(RockingEventKind::overturned, now_, arrived, side, 0, arrived.rate);
+    sink.fall(before - energy());
   }
 
   [[noreturn]] void refuse() const {

@@ -23,29 +23,28 @@ double frequency_parameter(double half, double center, double square) noexcept {
 }  // namespace
 
 RockingBlock::RockingBlock(const RockingBlockSize& size)
-    : width_(size.width),
-      height_(size.height),
+    : size_(size),
       mu_(size.mu ? *size.mu + 0.0 : std::numeric_limits<double>::infinity()),
       half_{size.width / 2, size.width / 2},
       center_(size.height / 2),
       square_((size.width * size.width + size.height * size.height) / 12),
       lever_{1, 1} {
-  require_positive("width", width_);
-  require_positive("height", height_);
+  require_positive("width", size.width);
+  require_positive("height", size.height);
   if (size.mu)
     detail::require(std::isfinite(*size.mu) && *size.mu >= 0,
                     "RockingBlock: mu must be at least 0 and finite; without one the block never slips", *size.mu);
   if (size.center) {
     const auto [offset, above] = *size.center;
     detail::require(
-        std::abs(offset) < width_ / 2,
+        std::abs(offset) < size.width / 2,
         "RockingBlock: center must be above the base: its distance to the right of the middle must be below "
         "width/2",
         offset, "m");
-    detail::require(above > 0 && above <= height_,
+    detail::require(above > 0 && above <= size.height,
                     "RockingBlock: center must be within the block: its height must be positive and at most height",
                     above, "m");
-    half_ = {width_ / 2 - offset, width_ / 2 + offset};
+    half_ = {size.width / 2 - offset, size.width / 2 + offset};
     center_ = above;
   }
   if (size.gyration_radius) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "stickslip/ground/ground_motion.hpp"
+#include "stickslip/rocking/rocking_block.hpp"
 #include "stickslip/rocking/slender_block.hpp"
 
 namespace stickslip {
@@ -23,12 +24,16 @@ struct RockingOutcome {
   std::size_t impacts = 0;
   double margin = std::numeric_limits<double>::infinity();
   double condition = 0;
+  double residual = 0;          ///< of the base [m]; 0 of a SlenderBlock
+  double sliding_distance = 0;  ///< [m]
+  std::size_t liftoffs = 0;
   std::string failure{};  ///< why there is no outcome; peaks are then NaN
 
   /// The outcome under the mirrored motion, of a block with equal sides.
   RockingOutcome mirrored() const {
     RockingOutcome other = *this;
     other.overturned = -overturned;
+    other.residual = -residual;
     return other;
   }
 };
@@ -47,6 +52,10 @@ std::vector<RockingOutcome> rocking_outcomes(
     std::size_t runs, const std::function<const SlenderBlock&(std::size_t)>& block_of,
     const std::function<void(std::size_t, const std::function<void(const GroundMotion&)>&)>& motion_of,
     const RockingRunOptions& options = {});
+std::vector<RockingOutcome> rocking_outcomes(
+    std::size_t runs, const std::function<const RockingBlock&(std::size_t)>& block_of,
+    const std::function<void(std::size_t, const std::function<void(const GroundMotion&)>&)>& motion_of,
+    const RockingRunOptions& options = {});
 
 /// A range of scales of a ground motion, from `begin` to `end`.
 struct ScaleRange {
@@ -63,6 +72,8 @@ struct ScaleRange {
 /// @throws std::invalid_argument  as `integrate` with `settle`
 /// @throws ConvergenceError       as `integrate` with `settle`
 std::vector<ScaleRange> critical_scales(const SlenderBlock& block, const GroundMotion& motion, double up_to,
+                                        std::size_t steps = 400, const std::function<void()>& progress = {});
+std::vector<ScaleRange> critical_scales(const RockingBlock& block, const GroundMotion& motion, double up_to,
                                         std::size_t steps = 400, const std::function<void()>& progress = {});
 
 }  // namespace stickslip

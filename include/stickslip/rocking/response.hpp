@@ -30,6 +30,7 @@ struct RockingEvent {
   double rotation;  ///< theta [rad]
   double rate;      ///< theta' [rad/s]
   RockingEventKind kind;
+  double rate_after = 0;    ///< theta' after an impact or a landing, else theta' [rad/s]
   double displacement = 0;  ///< of the middle of the base [m]
   double speed = 0;         ///< with which the corner arrived, downward [m/s]; of a RockingBlock
   std::int8_t side = 0;     ///< the corner that arrived, or on which it stands: +1 right, -1 left, 0 the base
@@ -38,9 +39,9 @@ struct RockingEvent {
 /// The motion of a block under one ground motion.
 ///
 /// Energies of a SlenderBlock are per unit moment of inertia about a corner [1/s^2]: `elastic` is the potential energy
-/// p^2 (s alpha theta - theta^2/2) under gravity, `dissipated` what a fall on its side takes. Those of a RockingBlock are per
-/// unit mass [m^2/s^2]: `elastic` is g times the rise of the center of mass, `dissipated` the work of friction, `impact`
-/// includes its fall on its side.
+/// p^2 (s alpha theta - theta^2/2) under gravity. Those of a RockingBlock are per
+/// unit mass [m^2/s^2]: `elastic` is g times the rise of the center of mass, `dissipated` the work of friction. `damped` is
+/// what a fall on the side takes.
 struct RockingResponse {
   /// theta at the samples of the motion [rad]. With `settle`, if the block still rocks at the last sample, further
   /// samples follow with the last time step, up to the first at or after rest. Once it lies on its side, +-pi/2.

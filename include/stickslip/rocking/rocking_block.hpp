@@ -24,6 +24,8 @@ struct RockingBlockSize {
   std::optional<std::array<double, 2>> center{};
   /// About the center of mass [m], positive. Without one sqrt((width^2 + height^2)/12), that of a uniform block.
   std::optional<double> gyration_radius{};
+
+  friend bool operator==(const RockingBlockSize&, const RockingBlockSize&) = default;
 };
 
 /// A rigid block on rigid ground, with large rotations, Coulomb friction and plastic impacts. It rests, slides on its base,
@@ -40,8 +42,9 @@ class RockingBlock {
   /// @throws std::invalid_argument  naming the value
   explicit RockingBlock(const RockingBlockSize& size);
 
-  double width() const noexcept { return width_; }    ///< [m]
-  double height() const noexcept { return height_; }  ///< [m]
+  const RockingBlockSize& size() const noexcept { return size_; }  ///< as given
+  double width() const noexcept { return size_.width; }            ///< [m]
+  double height() const noexcept { return size_.height; }          ///< [m]
   /// Infinite if it never slips.
   double mu() const noexcept { return mu_; }
   double right() const noexcept { return half_[0]; }           ///< b_R, from the center of mass to the right corner [m]
@@ -66,10 +69,11 @@ class RockingBlock {
   /// always determined: no paradox of Painleve exists. 4/3 if uniform.
   double painleve_friction() const noexcept;
 
-  friend bool operator==(const RockingBlock&, const RockingBlock&) = default;
+  friend bool operator==(const RockingBlock& a, const RockingBlock& b) { return a.size_ == b.size_; }
 
  private:
-  double width_, height_, mu_;
+  RockingBlockSize size_;
+  double mu_;
   std::array<double, 2> half_;
   double center_, square_;
   std::array<double, 2> lever_;
