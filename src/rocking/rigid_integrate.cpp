@@ -37,6 +37,12 @@ double top_displacement(const RockingBlock& block, const RockingState& state) no
   return base_displacement(block, state) + block.height() * std::sin(state.rotation);
 }
 
+// The height of the lower corner in flight [m].
+double lower_corner(const RockingBlock& block, const RockingState& state) noexcept {
+  const double side = state.rotation < 0 ? -1 : 1;
+  return state.rise + block.center_height() + arm(block, side, state.rotation).y;
+}
+
 class RigidRecorder final : public RigidSink, public EventLog<RockingEvent>, public Pace<4096> {
  public:
   RigidRecorder(const RockingBlock& block, const Overturning* overturning, double begin, const RockingState& state,
@@ -172,7 +178,7 @@ class RigidRun {
 
   Recorder recorder(const State& state, Response& response) const {
     for (std::vector<double>* history :
-         {&response.rotation, &response.rate, &response.displacement, &response.top_displacement}) {
+         {&response.rotation, &response.rate, &response.displacement, &response.top_displacement, &response.gap}) {
       history->clear();
       history->reserve(motion_.samples());
     }
@@ -270,6 +276,7 @@ class RigidRun {
     response.rate.push_back(state.rate);
     response.displacement.push_back(base_displacement(block_, state));
     response.top_displacement.push_back(top_displacement(block_, state));
+    response.gap.push_back(state.mode == RockingMode::flight ? lower_corner(block_, state) : 0);
   }
 
   const RockingBlock& block_;

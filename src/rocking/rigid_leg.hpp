@@ -359,7 +359,8 @@ class RigidLeg {
     turns_ = true;
     moves_ = slip_ != 0;
     const double k_square = block_.gyration_square();
-    const double inertia = k_square + r_.x * r_.x + r_.y * r_.y, radius = std::sqrt(r_.x * r_.x + r_.y * r_.y);
+    const double distance = r_.x * r_.x + r_.y * r_.y, per_inertia = 1 / (k_square + distance), per_k = 1 / k_square;
+    const double per_radius = 1 / std::sqrt(distance);
     const double n[2] = {square * n0_, square * h * n1_}, heavy[2] = {square * heavy0_, square * h * heavy1_};
     double w[series::highest_order + 1];  // theta' times the duration
     double turned[series::highest_order + 1], lever[series::highest_order + 1];
@@ -370,46 +371,50 @@ class RigidLeg {
     x_[1] = w[0] * y_[0], y_[1] = -w[0] * x_[0];
     way_[0] = 0;
     way_[1] = h * start_.velocity;
-    double largest = std::abs(w[0]), last = 1;
+    double largest = std::abs(w[0]), per_denominator = 0;
+    bool last = false;
     for (int k = 0; k + 2 <= highest; ++k) {
+      const double by_next = series::reciprocal[k + 1], by_second = series::reciprocal[k + 2];
       double net;
       if (slip_ == 0) {
         net = y_[k] * n[0] - x_[k] * heavy[0];
         if (k > 0) net += y_[k - 1] * n[1] - x_[k - 1] * heavy[1];
-        net /= inertia;
+        net *= per_inertia;
         if (k == 0 && how_.known_turn) net = square * how_.turn;
       } else {
         turned[k] = series::convolve(w, w, 0, k);
         lever[k] = x_[k] + slip_ * mu * y_[k];
-        denominator_[k] = (k == 0 ? 1 : 0) + series::convolve(x_, lever, 0, k) / k_square;
+        denominator_[k] = (k == 0 ? 1 : 0) + series::convolve(x_, lever, 0, k) * per_k;
         double known = series::convolve(turned, y_, 0, k) + (k < 2 ? heavy[k] : 0);
-        if (k > 0) known -= series::convolve(denominator_, push_, 1, k);
-        push_[k] = known / denominator_[0];
-        net = -series::convolve(lever, push_, 0, k) / k_square;
+        if (k > 0)
+          known -= series::convolve(denominator_, push_, 1, k);
+        else
+          per_denominator = 1 / denominator_[0];
+        push_[k] = known * per_denominator;
+        net = -series::convolve(lever, push_, 0, k) * per_k;
       }
-      w[k + 1] = net / (k + 1);
-      theta_[k + 2] = w[k + 1] / (k + 2);
-      x_[k + 2] = series::convolve(w, y_, 0, k + 1) / (k + 2);
-      y_[k + 2] = -series::convolve(w, x_, 0, k + 1) / (k + 2);
+      w[k + 1] = net * by_next;
+      theta_[k + 2] = w[k + 1] * by_second;
+      x_[k + 2] = series::convolve(w, y_, 0, k + 1) * by_second;
+      y_[k + 2] = -series::convolve(w, x_, 0, k + 1) * by_second;
       double term = std::abs(w[k + 1]);
       if (slip_ != 0) {
         double speed = -slip_ * mu * push_[k] + (k + 2) * (k + 1) * x_[k + 2] - (k < 2 ? n[k] : 0);
         if (k == 0 && how_.smooth) speed = 0;
-        way_[k + 2] = speed / ((k + 1) * (k + 2));
-        term = std::max(term, std::abs(speed) / radius);
+        way_[k + 2] = speed * by_next * by_second;
+        term = std::max(term, std::abs(speed) * per_radius);
       }
       largest = std::max(largest, term);
-      // The forces are of order two below.
-      const double arm_term = std::max(std::abs(x_[k + 2]), std::abs(y_[k + 2])) / radius * (k + 2);
-      const double now = std::max(term > small * largest ? term / largest : 0.0, arm_term);
-      if (k >= 3 && now <= small && last <= small) {
+      const double turns = std::max(std::abs(x_[k + 2]), std::abs(y_[k + 2])) * per_radius * (k + 2);
+      const bool now = term <= small * largest && turns <= small;
+      if (k >= 3 && now && last) {
         order_ = k;
         arm_order_ = way_order_ = k + 2;
         return 1;
       }
       last = now;
       if (k + 3 > highest) {
-        const double over = now / small;
+        const double over = std::max(term / largest, turns) / small;
         const double part = over < never ? std::pow(over, -1.0 / k) : 0.01;
         return std::min(std::max(part, 0.01), 0.75);
       }

@@ -64,6 +64,7 @@ struct RockingResponse {
   /// Displacements relative to the ground at the same times [m], of a RockingBlock: of the middle of the base, and of that of
   /// the top. Empty for a SlenderBlock, which does not slide.
   std::vector<double> displacement, top_displacement;
+  std::vector<double> gap;      ///< between the lower corner and the ground at the same times, in flight [m]
   double residual = 0;          ///< displacement of the base at the end: what it has slid and walked [m]
   double sliding_distance = 0;  ///< path that the base or a corner slips [m]
   double time_sliding = 0;      ///< [s]
