@@ -60,11 +60,8 @@ int order_for(double reach) {
 
 }  // namespace
 
-double largest_magnitude(const double* c, int degree, double least) {
-  double bound = 0;
-  for (int k = 0; k <= degree; ++k) bound += std::abs(c[k]);
-  if (bound <= least) return least;
-  Bernstein b{};
+Polynomial bernstein(const double* c, int degree) {
+  Polynomial b{};
   double binomial = 1;
   for (int k = 0; k <= degree; ++k) {
     b[static_cast<std::size_t>(k)] = c[k] / binomial;
@@ -72,6 +69,14 @@ double largest_magnitude(const double* c, int degree, double least) {
   }
   for (int i = 1; i <= degree; ++i)
     for (int k = degree; k >= i; --k) b[static_cast<std::size_t>(k)] += b[static_cast<std::size_t>(k - 1)];
+  return b;
+}
+
+double largest_magnitude(const double* c, int degree, double least) {
+  double bound = 0;
+  for (int k = 0; k <= degree; ++k) bound += std::abs(c[k]);
+  if (bound <= least) return least;
+  Bernstein b = bernstein(c, degree);
   return search(c, degree, b, 0, 1, least);
 }
 
@@ -155,6 +160,18 @@ double ModalInterface::force_of_modes(const StructureState& state) const {
 double ModalInterface::size_of_force(const StructureState& state) const {
   const auto y = view(state.modal_displacement), rate = view(state.modal_velocity);
   return demand.cwiseAbs().dot(stiffness.cwiseProduct(y).cwiseAbs() + damping.cwiseAbs() * rate.cwiseAbs());
+}
+
+std::pair<double, double> energy_of(const ModalInterface& of, const StructureState& state) {
+  const double x = state.displacement, v = state.velocity;
+  double kinetic = v * v / 2, elastic = of.spring.stiffness * x * x / 2;
+  if (!of.driven) {
+    const auto rates = view(state.modal_velocity);
+    const double moves = of.coupling.dot(rates);
+    kinetic += v * moves + of.own * moves * moves / 2 + of.modal_mass * rates.squaredNorm() / 2;
+    elastic += of.modal_mass * of.stiffness.dot(view(state.modal_displacement).cwiseAbs2()) / 2;
+  }
+  return {kinetic, elastic};
 }
 
 Eigen::MatrixXd flow_matrix(const ModalInterface& of, bool sliding) {

@@ -50,6 +50,9 @@ inline double value_at(const double* c, int degree, double u) {
   return value;
 }
 
+/// The Bernstein coefficients of a polynomial on [0, 1], which lie around it.
+Polynomial bernstein(const double* c, int degree);
+
 /// The largest magnitude of a polynomial on [0, 1], or `least` if that is larger.
 double largest_magnitude(const double* c, int degree, double least);
 

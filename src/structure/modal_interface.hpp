@@ -2,6 +2,7 @@
 #pragma once
 
 #include <complex>
+#include <utility>
 #include <vector>
 
 #include "stickslip/spring.hpp"
@@ -52,8 +53,14 @@ struct ModalInterface {
 
   Eigen::Index modes() const noexcept { return stiffness.size(); }
   double force_of_modes(const StructureState& state) const;  // demand.r [m/s^2]
-  double size_of_force(const StructureState& state) const;   // the same with the magnitude of each term
+  double demand_of(const StructureState& state, double ground, double weight) const {
+    return force_of_modes(state) - ground_demand * ground - spring.under(weight) * state.displacement;
+  }
+  double size_of_force(const StructureState& state) const;  // the same with the magnitude of each term
 };
+
+/// Kinetic and elastic energy per reference mass [m^2/s^2].
+std::pair<double, double> energy_of(const ModalInterface& of, const StructureState& state);
 
 /// Matrix of the motion z' = A z without loads, z = (x, v, y, y') while it slides, (y, y') while it is stuck.
 Eigen::MatrixXd flow_matrix(const ModalInterface& of, bool sliding);

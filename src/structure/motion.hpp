@@ -22,6 +22,8 @@
 
 namespace stickslip::detail {
 
+class LinearMove;
+
 /// Where and how fast the interface is at an event.
 struct InterfacePlace {
   InterfacePlace(double x, double v) noexcept : displacement(x), velocity(v) {}
@@ -62,6 +64,11 @@ class StructureSink {
   virtual void event(EventKind kind, double time, const InterfacePlace& place) = 0;
   /// After each expansion, whose duration is over.
   virtual void follow(const Expansion& motion, Mode mode) = 0;
+  /// A whole segment without an event.
+  /// @param from   the state at its start
+  /// @param level  of the friction while it slides [m/s^2]
+  /// @return whether that is all that must be known of it; otherwise it is expanded
+  virtual bool pass(const LinearMove& /*move*/, const StructureState& /*from*/, double /*level*/) { return true; }
   /// Energy lost in an impact [J].
   virtual void lose(double /*energy*/) {}
   /// The distance of a demand from a level where the velocity is zero [m/s^2].

@@ -107,6 +107,24 @@ StuckLevels stuck_levels(const ModalInterface& of, const Law& law, const Structu
   return {level(Direction::forward), level(Direction::backward)};
 }
 
+/// The demands, beside the pull of the spring, that are certain to be held while the weight remains in a range, a
+/// little less than those that are held.
+struct HeldDemands {
+  double low, high;  ///< [m/s^2]
+
+  /// @param least, heaviest  N+/g
+  HeldDemands(const ModalInterface& of, double x, const StuckLevels& levels, double least, double heaviest) {
+    constexpr double gap = 0x1p-40;
+    const double light = of.spring.under(0) * x, heavy = of.spring.under(heaviest) * x;
+    // The springs of a law can make a level negative.
+    const auto level = [&](double full) {
+      return full > 0 ? weigh(least, full) * (1 - gap) : heaviest * full * (1 + gap);
+    };
+    low = std::max(light, heavy) - level(levels.backward);
+    high = std::min(light, heavy) + level(levels.forward);
+  }
+};
+
 /// Whether demands are held that differ from the constant -pull by at most `amplitude`.
 inline bool holds_forever(double pull, double amplitude, const StuckLevels& levels) {
   constexpr double gap = 0x1p-40;

@@ -36,31 +36,6 @@ const Eigen::MatrixXd& powers() {
 
 }  // namespace
 
-FloorRows::FloorRows(const ModalInterface& of) : floors(of.shapes.rows()), stories(of.floor_mass.rows()) {
-  const Eigen::Index n = of.modes();
-  forces = Eigen::MatrixXd::Zero(floors + stories + 1, n);
-  with_base = with_slider = Eigen::VectorXd::Zero(floors + stories + 1);
-  forces.topRows(floors) = of.shapes;
-  with_base.head(floors) = of.influence;
-  if (stories > 0) {
-    Eigen::MatrixXd inertia = of.floor_mass * of.shapes;
-    Eigen::VectorXd with = of.floor_mass * of.influence;
-    for (Eigen::Index i = stories - 2; i >= 0; --i) {
-      inertia.row(i) += inertia.row(i + 1);
-      with[i] += with[i + 1];
-    }
-    forces.middleRows(floors, stories) = inertia;
-    with_base.segment(floors, stories) = with;
-    with_slider.segment(floors, of.slider_floor + 1).setConstant(of.slider_mass);
-  }
-  forces.row(floors + stories) = of.base_shear.transpose();
-  with_base[floors + stories] = of.base_shear_of_base;
-  with_slider[floors + stories] = of.slider_mass;
-  // Only where floors move with the base is one above another.
-  drifts = (of.influence.array() == 1).all() ? of.shapes : Eigen::MatrixXd(0, n);
-  for (Eigen::Index i = drifts.rows() - 1; i > 0; --i) drifts.row(i) -= of.shapes.row(i - 1);
-}
-
 StructureRecorder::StructureRecorder(const ModalInterface& of, const FloorRows* rows, bool loops, double from,
                                      std::size_t event_limit, const std::function<void()>& progress,
                                      StructureResponse& response)
@@ -81,6 +56,38 @@ void StructureRecorder::follow(const Expansion& motion, Mode mode) {
   add_work(motion, mode);
   if (floors_) floors_->include(motion);
   if (loops_) draw(motion, mode);
+}
+
+bool StructureRecorder::pass(const LinearMove& move, const StructureState& from, double level) {
+  if (loops_) return false;
+  if (floors_) floors_->include(move);
+  count_work();
+  if (!balance_) {
+    const auto [kinetic, elastic] = energy_of(of_, from);
+    balance_ = {kinetic + elastic, response_.energy};
+  }
+  Energy& energy = response_.energy;
+  if (!of_.driven) energy.input -= move.work(of_);
+  if (from.mode == Mode::stuck) return true;
+  const double distance = std::abs(move.distance());
+  response_.sliding_distance += distance;
+  response_.time_sliding += move.step().duration();
+  energy.dissipated += level * distance;
+  return true;
+}
+
+void StructureRecorder::balance(const StructureState& state) {
+  if (!balance_) return;
+  Energy& energy = response_.energy;
+  const auto& [before, sums] = *balance_;
+  const auto [kinetic, elastic] = energy_of(of_, state);
+  const double lost =
+      before - (kinetic + elastic) + (energy.input - sums.input) - (energy.dissipated - sums.dissipated);
+  if (of_.driven)
+    energy.input -= lost;
+  else if (of_.damper > 0 || (of_.damping.array() != 0).any())
+    energy.damped += lost;
+  balance_.reset();
 }
 
 void StructureRecorder::draw(const Expansion& motion, Mode mode) {
@@ -191,9 +198,43 @@ void FloorMaxima::include(const Expansion& motion) {
   examine(rows_.drifts, displacements, false, drifts_);
 }
 
+// Calls `use(i, maximum)` for each of FloorRows::of_state, counted from 1 as LinearMove does, until it returns false.
+template <class Use>
+void FloorMaxima::each(Use&& use) {
+  Eigen::Index i = 0;
+  const auto with = [&](double& maximum) { return use(++i, maximum); };
+  for (Eigen::VectorXd* maxima : {&forces_, &drifts_})
+    if (!std::ranges::all_of(*maxima, with)) return;
+  with(base_acceleration_);
+}
+
+void FloorMaxima::include(const LinearMove& move) {
+  bool known = true;
+  each([&](Eigen::Index i, double& maximum) {
+    const auto [first, last] = move.ends(i);
+    maximum = std::max({maximum, std::abs(first), std::abs(last)});
+    known = known && move.remains(i, first, last, -maximum, maximum);
+    return true;
+  });
+  if (!known) open_.push_back(move);
+}
+
+void FloorMaxima::finish() {
+  for (const LinearMove& move : open_) {
+    bool known = true;
+    each([&](Eigen::Index i, double& maximum) {
+      const auto [first, last] = move.ends(i);
+      return known = move.remains(i, first, last, -maximum, maximum);
+    });
+    if (!known) move.expand(of_, [&](const Expansion& motion) { include(motion); });
+  }
+  open_.clear();
+}
+
 void StructureRecorder::finish(StructureResponse& response) {
   response.events = take();
   if (!floors_) return;
+  floors_->finish();
   response.peak_base_acceleration = floors_->base_acceleration();
   response.floors.peak_acceleration = values(floors_->accelerations());
   response.floors.peak_drift = values(floors_->drifts());

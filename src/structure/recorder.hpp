@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "stickslip/base/min_max.hpp"
@@ -14,21 +15,11 @@
 #include "stickslip/run/detail/event_log.hpp"
 #include "stickslip/structure/response.hpp"
 #include "structure/expansion.hpp"
+#include "structure/floor_rows.hpp"
+#include "structure/linear_step.hpp"
 #include "structure/motion.hpp"
 
 namespace stickslip::detail {
-
-/// The quantities of the floors, each of which is a row times the modes.
-struct FloorRows {
-  explicit FloorRows(const ModalInterface& of);
-
-  // Of the modal accelerations, plus `with_base` times the acceleration of the base and `with_slider` times x'':
-  // floors, stories (if the masses are known by floor), and the base shear last.
-  Eigen::MatrixXd forces;
-  Eigen::VectorXd with_base, with_slider;
-  Eigen::MatrixXd drifts;  // of the modal displacements
-  Eigen::Index floors, stories;
-};
 
 /// The largest magnitudes of the quantities of the floors, over all time.
 class FloorMaxima {
@@ -40,6 +31,9 @@ class FloorMaxima {
         drifts_(Eigen::VectorXd::Zero(rows.drifts.rows())) {}
 
   void include(const Expansion& motion);
+  void include(const LinearMove& move);
+  /// Searches the segments in which bounds left it open whether they hold a maximum.
+  void finish();
 
   double base_acceleration() const noexcept { return base_acceleration_; }  ///< absolute [m/s^2]
   auto accelerations() const { return forces_.head(rows_.floors); }         ///< absolute [m/s^2]
@@ -51,7 +45,11 @@ class FloorMaxima {
   const ModalInterface& of_;
   const FloorRows& rows_;
   double base_acceleration_ = 0;
+  template <class Use>
+  void each(Use&& use);
+
   Eigen::VectorXd forces_, drifts_;  // in the order of the rows
+  std::vector<LinearMove> open_{};
 };
 
 class StructureRecorder : public StructureSink, public EventLog<double>, public Pace<4096> {
@@ -67,6 +65,9 @@ class StructureRecorder : public StructureSink, public EventLog<double>, public 
 
   void event(EventKind kind, double time, const InterfacePlace& place) override;
   void follow(const Expansion& motion, Mode mode) override;
+  bool pass(const LinearMove& move, const StructureState& from, double level) override;
+  /// After segments that were passed: what is missing in their energy is what dampers have taken.
+  void balance(const StructureState& state);
   void lose(double energy) override { response_.energy.impact += energy; }
   void decide(double difference) override { response_.margin = std::min(response_.margin, difference); }
   /// Writes the events, and the peaks of the floors.
@@ -82,6 +83,7 @@ class StructureRecorder : public StructureSink, public EventLog<double>, public 
   const ModalInterface& of_;
   std::optional<FloorMaxima> floors_{};
   StructureResponse& response_;
+  std::optional<std::pair<double, Energy>> balance_{};  // the energy of the structure, and the sums, before them
   bool loops_;
   double now_ = 0;  // the beginning of the next expansion [s]
 };

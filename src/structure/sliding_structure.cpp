@@ -13,6 +13,7 @@
 #include "stickslip/run/detail/run.hpp"
 #include "stickslip/run/options.hpp"
 #include "stickslip/sliding/detail/run.hpp"
+#include "structure/linear_path.hpp"
 #include "structure/modal_interface.hpp"
 #include "structure/move.hpp"
 #include "structure/recorder.hpp"
@@ -25,6 +26,7 @@ struct SlidingStructure::Data {
   AnySlider slider;
   Structure structure;
   detail::ModalInterface modal;
+  std::shared_ptr<detail::LinearSteps> steps = std::make_shared<detail::LinearSteps>();
 };
 
 namespace {
@@ -41,24 +43,11 @@ void check_start(const SlidingStructure& system, const StructureState& state, co
                    "m/s");
 }
 
-// Kinetic and elastic energy per reference mass [m^2/s^2].
-std::pair<double, double> energy_of(const detail::ModalInterface& of, const StructureState& state) {
-  const double x = state.displacement, v = state.velocity;
-  double kinetic = v * v / 2, elastic = of.spring.stiffness * x * x / 2;
-  if (!of.driven) {
-    const auto rates = detail::view(state.modal_velocity);
-    const double moves = of.coupling.dot(rates);
-    kinetic += v * moves + of.own * moves * moves / 2 + of.modal_mass * rates.squaredNorm() / 2;
-    elastic += of.modal_mass * of.stiffness.dot(detail::view(state.modal_displacement).cwiseAbs2()) / 2;
-  }
-  return {kinetic, elastic};
-}
-
 // Keeps the motion at the samples.
 class Histories {
  public:
   Histories(const SlidingStructure& system, StructureResponse& response, std::size_t samples, bool heated)
-      : system_(system), of_(system.modal()), response_(response), heated_(heated) {
+      : of_(system.modal()), response_(response), heated_(heated) {
     resize(samples);
   }
 
@@ -69,9 +58,11 @@ class Histories {
     const auto i = static_cast<Index>(sample);
     response_.displacement[sample] = state.displacement;
     response_.velocity[sample] = state.velocity;
-    modal_displacement_.row(i) = detail::view(state.modal_displacement).transpose();
-    modal_velocity_.row(i) = detail::view(state.modal_velocity).transpose();
-    const double demand = system_.demand(state, ground, weight);
+    for (Index j = 0; j < of_.modes(); ++j) {
+      response_.modal_displacement(i, j) = state.modal_displacement[static_cast<std::size_t>(j)];
+      response_.modal_velocity(i, j) = state.modal_velocity[static_cast<std::size_t>(j)];
+    }
+    const double demand = of_.demand_of(state, ground, weight);
     double acceleration = 0, force = demand;  // stuck: friction is what the bond carries
     if (state.mode != Mode::stuck) {
       const Direction direction = direction_of(state.mode);
@@ -90,41 +81,64 @@ class Histories {
 
   void finish(const detail::FloorRows* rows) {
     resize(count_);
-    response_.modal_displacement = modal_displacement_;
-    response_.modal_velocity = modal_velocity_;
     if (rows == nullptr) return;
-    const auto& y = modal_displacement_;
-    Eigen::MatrixXd force = modal_velocity_ * of_.damping;  // symmetric
-    force += y * of_.stiffness.asDiagonal();
-    const Eigen::VectorXd demand = force * of_.demand;
-    const Eigen::MatrixXd accelerations = demand * of_.reaction.transpose() - force - ground_ * of_.load.transpose() -
-                                          acceleration_ * of_.jump.transpose();
-    const Eigen::MatrixXd forces = accelerations * rows->forces.transpose() +
-                                   detail::view(response_.base_acceleration) * rows->with_base.transpose() +
-                                   acceleration_ * rows->with_slider.transpose();
+    const auto n = static_cast<Index>(count_);
     Floors& floors = response_.floors;
-    floors.displacement = y * of_.shapes.transpose();
-    floors.drift = y * rows->drifts.transpose();
-    floors.acceleration = forces.leftCols(rows->floors);
-    floors.shear = forces.middleCols(rows->floors, rows->stories);
+    floors.displacement = RealMatrix(n, rows->floors);
+    floors.drift = RealMatrix(n, rows->drifts.rows());
+    floors.acceleration = RealMatrix(n, rows->floors);
+    floors.shear = RealMatrix(n, rows->stories);
+    if (rows->floors == 0) return;
+    // A few samples at a time: what is between remains in the cache.
+    constexpr Index most = 64;
+    for (Index first = 0; first < n; first += most) {
+      const Index some = std::min(most, n - first);
+      const auto part = [&](const RealMatrix& of) { return detail::view(of).middleRows(first, some); };
+      const auto into = [&](RealMatrix& of) {
+        return Eigen::Map<Eigen::MatrixXd>(of.data(), of.rows(), of.cols()).middleRows(first, some);
+      };
+      const auto y = part(response_.modal_displacement), rate = part(response_.modal_velocity);
+      const auto acceleration = acceleration_.segment(first, some);
+      Eigen::MatrixXd force = y * of_.stiffness.asDiagonal();
+      if (of_.classical)
+        force += rate * of_.damping.diagonal().asDiagonal();
+      else
+        force += rate * of_.damping;  // symmetric
+      const Eigen::VectorXd demand = force * of_.demand;
+      const Eigen::MatrixXd accelerations = demand * of_.reaction.transpose() - force -
+                                            ground_.segment(first, some) * of_.load.transpose() -
+                                            acceleration * of_.jump.transpose();
+      const Eigen::MatrixXd forces =
+          accelerations * rows->forces.transpose() +
+          detail::view(response_.base_acceleration).segment(first, some) * rows->with_base.transpose() +
+          acceleration * rows->with_slider.transpose();
+      into(floors.displacement) = y * of_.shapes.transpose();
+      into(floors.drift) = y * rows->drifts.transpose();
+      into(floors.acceleration) = forces.leftCols(rows->floors);
+      into(floors.shear) = forces.middleCols(rows->floors, rows->stories);
+    }
   }
 
  private:
   void resize(std::size_t samples) {
     const auto size = static_cast<Index>(samples);
+    const Index kept = std::min(size, ground_.size());
     response_.displacement.resize(samples);
     response_.velocity.resize(samples);
     if (heated_) response_.temperature.resize(samples);
     for (auto* values : {&response_.base_acceleration, &response_.interface_demand, &response_.interface_force})
       values->resize(samples);
-    for (auto* values : {&modal_displacement_, &modal_velocity_}) values->conservativeResize(size, of_.modes());
+    for (RealMatrix* values : {&response_.modal_displacement, &response_.modal_velocity}) {
+      if (values->rows() == size) continue;
+      const RealMatrix before = std::exchange(*values, RealMatrix(size, of_.modes()));
+      for (Index j = 0; j < of_.modes(); ++j)
+        std::copy_n(before.data() + j * before.rows(), kept, values->data() + j * size);
+    }
     for (auto* values : {&ground_, &acceleration_}) values->conservativeResize(size);
   }
 
-  const SlidingStructure& system_;
   const detail::ModalInterface& of_;
   StructureResponse& response_;
-  Eigen::MatrixXd modal_displacement_{}, modal_velocity_{};
   Eigen::VectorXd ground_{}, acceleration_{};
   std::size_t count_ = 0;
   bool heated_;
@@ -168,7 +182,8 @@ class StructureRun {
         rows_(of_),
         wanted_(options.floors ? &rows_ : nullptr),
         pieces_(motion, 0),
-        expansion_(of_, law, detail::mean_step(motion)) {}
+        expansion_(of_, law, detail::mean_step(motion)),
+        path_(system, law, motion, options.floors) {}
 
   const GroundMotion& motion() const noexcept { return motion_; }
   const StructureIntegrateOptions& options() const noexcept { return options_; }
@@ -202,6 +217,7 @@ class StructureRun {
           recorder.keep(i + 1, state, segment.load_end, segment.normal_end);
         },
         [&] { recorder.report_progress(); });
+    recorder.balance(state);
   }
 
   double settle(State& state, Recorder& recorder, Response& response) const {
@@ -216,13 +232,14 @@ class StructureRun {
         response.truncated = true;
       if (i++ % Recorder::work_per_report == 0) recorder.report_progress();
     });
+    recorder.balance(state);
     response.settled = true;
     return end;
   }
 
-  double kinetic(const State& state) const { return energy_of(of_, state).first; }
+  double kinetic(const State& state) const { return detail::energy_of(of_, state).first; }
   double elastic(const State& state) const {
-    return energy_of(of_, state).second + detail::elastic(law_, detail::interface_of(state));
+    return detail::energy_of(of_, state).second + detail::elastic(law_, detail::interface_of(state));
   }
 
   void finish(State&& state, Response& response) const {
@@ -235,6 +252,8 @@ class StructureRun {
  private:
   void move(double begin, double end, const LoadSegment& segment, State& state, Recorder& recorder) const {
     recorder.begin_segment(begin, end);
+    if (path_.pass(segment, state, recorder)) return;
+    recorder.balance(state);
     detail::move_structure(of_, law_, segment, state, expansion_, recorder);
   }
 
@@ -247,6 +266,7 @@ class StructureRun {
   const detail::FloorRows* wanted_;  // null for none
   detail::LoadPieces pieces_;
   mutable detail::LawExpansion<Law> expansion_;  // room for the steps
+  mutable detail::LinearPath<Law> path_;
 };
 
 }  // namespace
@@ -291,6 +311,7 @@ const AnySlider& SlidingStructure::slider() const noexcept { return data_->slide
 double SlidingStructure::interface_mass() const noexcept { return data_->modal.mass; }
 double SlidingStructure::fastest() const noexcept { return data_->modal.fastest; }
 const detail::ModalInterface& SlidingStructure::modal() const noexcept { return data_->modal; }
+detail::LinearSteps& SlidingStructure::steps() const noexcept { return *data_->steps; }
 
 StructureState SlidingStructure::rest() const {
   const std::vector<double> zeros(static_cast<std::size_t>(data_->modal.modes()));
@@ -298,10 +319,7 @@ StructureState SlidingStructure::rest() const {
 }
 
 double SlidingStructure::demand(const StructureState& state, double ground, double weight) const {
-  const detail::ModalInterface& of = data_->modal;
-  return of.demand.dot(of.stiffness.cwiseProduct(detail::view(state.modal_displacement)) +
-                       of.damping * detail::view(state.modal_velocity)) -
-         of.ground_demand * ground - of.spring.under(weight) * state.displacement;
+  return data_->modal.demand_of(state, ground, weight);
 }
 
 StructureResponse integrate(const SlidingStructure& system, const GroundMotion& motion,

@@ -14,6 +14,7 @@
 #include "stickslip/sliding/detail/recorder.hpp"
 #include "stickslip/sliding/detail/run.hpp"
 #include "stickslip/units.hpp"
+#include "structure/linear_path.hpp"
 #include "structure/modal_interface.hpp"
 #include "structure/move.hpp"
 #include "structure/stuck_motion.hpp"
@@ -34,9 +35,15 @@ class Tally final : public StructureSink {
     if (kind == EventKind::impact) outcome_.impacts.add(place.displacement, place.velocity);
   }
   void follow(const Expansion& motion, Mode mode) override {
-    if (++work_ % work_per_check == 0) check_();
+    count_work();
     if (mode == Mode::stuck) return;
     outcome_.sliding_distance += std::max(motion.distance(static_cast<double>(static_cast<int>(mode)), 1), 0.0);
+  }
+
+  bool pass(const LinearMove& move, const StructureState&, double) override {
+    count_work();
+    outcome_.sliding_distance += std::abs(move.distance());
+    return true;
   }
 
   SweepOutcome end(const StructureState& state) {
@@ -47,6 +54,10 @@ class Tally final : public StructureSink {
   }
 
  private:
+  void count_work() {
+    if (++work_ % work_per_check == 0) check_();
+  }
+
   static constexpr std::uint32_t work_per_check = 4096;
   SweepOutcome outcome_{};
   std::size_t event_limit_;
@@ -60,7 +71,7 @@ template <FrictionLaw Law>
 class SweptInterface {
  public:
   SweptInterface(const ModalInterface& of, const Law& law, const GroundMotion& motion, const StuckMotion& stuck,
-                 bool reversed, const SweepGroup::Check& check)
+                 LinearSteps& steps, bool reversed, const SweepGroup::Check& check)
       : of_(of),
         law_(law),
         motion_(motion),
@@ -69,6 +80,7 @@ class SweptInterface {
         sign_(reversed ? -1 : 1),
         tally_(max_events(motion.segments()), check),
         expansion_(of, law, mean_step(motion)),
+        path_(of, law, steps, motion, false),
         deviation_(Eigen::VectorXd::Zero(2 * of.modes())) {
     state_.modal_displacement.resize(static_cast<std::size_t>(of.modes()));
     state_.modal_velocity = state_.modal_displacement;
@@ -86,7 +98,7 @@ class SweptInterface {
       LoadSegment segment = pieces_.segment(at_++);
       segment.load_start *= sign_;
       segment.load_end *= sign_;
-      move_structure(of_, law_, segment, state_, expansion_, tally_);
+      move(segment);
       if (!stuck_.empty() && state_.mode == Mode::stuck) part();
     }
     if (settle) come_to_rest();
@@ -116,25 +128,15 @@ class SweptInterface {
     deviation_.setZero();
   }
 
-  // What can be held, a little less than that, and the pull of the spring, without vertical motion and its range.
   void hold_from_here() { hold_from_here(stuck_.largest_weight()); }
   void hold_from_here(double heaviest) {
     heaviest_ = heaviest;
     levels_ = stuck_levels(of_, law_, state_, heaviest);
-    const double x = state_.displacement;
-    pull_ = of_.spring.stiffness * x;
-    const double light = of_.spring.under(0) * x;
-    const double heavy = of_.spring.under(heaviest) * x;
-    pull_low_ = std::min(light, heavy);
-    pull_high_ = std::max(light, heavy);
+    pull_ = of_.spring.stiffness * state_.displacement;
   }
   bool holds(double lowest, double highest, double least_weight) const {
-    constexpr double gap = 0x1p-40;
-    // The springs of a law can make a level negative.
-    const auto level = [&](double full) {
-      return full > 0 ? weigh(least_weight, full) * (1 - gap) : heaviest_ * full * (1 + gap);
-    };
-    return highest - pull_low_ <= level(levels_.forward) && lowest - pull_high_ >= -level(levels_.backward);
+    const HeldDemands held(of_, state_.displacement, levels_, least_weight, heaviest_);
+    return highest <= held.high && lowest >= held.low;
   }
   bool holds(const StuckSpan& span) const {
     const double low = (sign_ > 0 ? span.lowest : -span.highest) - bound_;
@@ -187,8 +189,12 @@ class SweptInterface {
         if (!left) left.emplace(of_);
         refuse_endless(of_, law_, *left, step, state_, steps);
       }
-      move_structure(of_, law_, calm, state_, expansion_, tally_);
+      move(calm);
     }
+  }
+
+  void move(const LoadSegment& segment) {
+    if (!path_.pass(segment, state_, tally_)) move_structure(of_, law_, segment, state_, expansion_, tally_);
   }
 
   // To the first step without ground motion in which the demand may exceed the friction, or after which it cannot.
@@ -222,18 +228,19 @@ class SweptInterface {
   double sign_;
   Tally tally_;
   LawExpansion<Law> expansion_;
+  LinearPath<Law> path_;
   StructureState state_{};
   std::size_t at_ = 0;  // the segment that comes next
   // While it is stuck: the modes and their rates beside the StuckMotion, a bound of their demand, and what holds.
   Eigen::VectorXd deviation_;
-  double bound_ = 0, pull_ = 0, pull_low_ = 0, pull_high_ = 0, heaviest_ = 1;
+  double bound_ = 0, pull_ = 0, heaviest_ = 1;
   StuckLevels levels_{};
 };
 
 template <FrictionLaw Law>
 SweepOutcome slide(const ModalInterface& of, const Law& law, const GroundMotion& motion, const StuckMotion& stuck,
-                   bool reversed, bool settle, const SweepGroup::Check& check) {
-  return SweptInterface<Law>(of, law, motion, stuck, reversed, check).run(settle);
+                   LinearSteps& steps, bool reversed, bool settle, const SweepGroup::Check& check) {
+  return SweptInterface<Law>(of, law, motion, stuck, steps, reversed, check).run(settle);
 }
 
 // Slopes that differ in ky_g alone, or in their Degrading law.
@@ -243,11 +250,17 @@ SweepGroup::Each start_slopes(const std::vector<FlexibleSlope>& slopes, const st
   auto stuck = std::make_shared<const StuckMotion>(column.modal(), motion);
   return [&slopes, column, stuck, &motion, settle, check](std::size_t i, bool reversed) {
     const auto with = [&](const auto& law) {
-      return slide(column.modal(), law, motion, *stuck, reversed, settle, check);
+      return slide(column.modal(), law, motion, *stuck, column.steps(), reversed, settle, check);
     };
     if (slopes[i].degrading) return with(*slopes[i].degrading);
     return with(Coulomb(slopes[i].ky_g * standard_gravity, never));
   };
+}
+
+// Whether structures that move alike while they are stuck do so while they slide against the same friction.
+bool slide_alike(const ModalInterface& a, const ModalInterface& b) {
+  return equal(a.mass, b.mass) && equal(a.spring.stiffness, b.spring.stiffness) && equal(a.damper, b.damper) &&
+         a.jump == b.jump && equal(a.fastest, b.fastest);
 }
 
 // Structures that differ in the interface alone.
@@ -256,8 +269,11 @@ SweepGroup::Each start_structures(const std::vector<SlidingStructure>& structure
   auto stuck = std::make_shared<const StuckMotion>(structures[0].modal(), motion);
   return [&structures, stuck, &motion, settle, check](std::size_t i, bool reversed) {
     SweepOutcome outcome;
+    // The steps of the first that slides alike.
+    const auto same = std::ranges::find_if(
+        structures, [&](const SlidingStructure& other) { return slide_alike(other.modal(), structures[i].modal()); });
     with_interface_law(structures[i].slider(), [&](const auto& law) {
-      outcome = slide(structures[i].modal(), law, motion, *stuck, reversed, settle, check);
+      outcome = slide(structures[i].modal(), law, motion, *stuck, same->steps(), reversed, settle, check);
     });
     return outcome;
   };

@@ -77,7 +77,10 @@ TEST_CASE("the energy of a building on a bearing with several surfaces is balanc
         const detail::LoadPieces pieces(motion, 0);
         for (std::size_t i = 0; i < motion.segments(); ++i) advance(system, pieces.segment(i), state);
         CHECK(std::abs(state.displacement - r.residual) <= 1e-11 * r.peak);
-        CHECK(state.pendulum == r.final_state.pendulum);
+        const PendulumMemory &one = state.pendulum, &other = r.final_state.pendulum;
+        CHECK(one.moving == other.moving);
+        for (std::size_t k = 0; k < one.place.size(); ++k)
+          CHECK(std::abs(one.place[k] - other.place[k]) <= 1e-11 * r.peak);
       }
     }
 }

@@ -13,7 +13,8 @@
 namespace stickslip {
 namespace detail {
 struct ModalInterface;
-}
+class LinearSteps;
+}  // namespace detail
 
 /// A linear structure with one sliding interface: the base of IsolatedStructure, EquipmentOnFloor and FlexibleSlope.
 /// Everything is per reference mass: x the displacement of the interface [m], q the force that a bond would have to
@@ -45,6 +46,7 @@ class SlidingStructure {
   double demand(const StructureState& state, double ground, double weight = 1) const;
 
   const detail::ModalInterface& modal() const noexcept;  ///< for the library
+  detail::LinearSteps& steps() const noexcept;           ///< for the library
 
  protected:
   /// @param name  of the class, for messages
