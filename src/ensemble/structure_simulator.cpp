@@ -8,6 +8,7 @@
 #include "stickslip/ensemble/floor_peaks.hpp"
 #include "stickslip/structure/flexible_slope.hpp"
 #include "stickslip/structure/sliding_structure.hpp"
+#include "structure/linear_path.hpp"
 #include "structure/move.hpp"
 #include "structure/recorder.hpp"
 
@@ -19,7 +20,8 @@ class StructurePeakObserver final : public StructureSink, public MemberTally {
   StructurePeakObserver(const ModalInterface& of, const FloorRows& rows, const Block& block, std::size_t event_limit)
       : MemberTally(block, event_limit), floors_(of, rows) {}
 
-  std::vector<double> floor_peaks() const {
+  std::vector<double> floor_peaks() {
+    floors_.finish();
     std::vector<double> numbers{floors_.base_acceleration(), floors_.base_shear()};
     const auto add = [&](const auto& values) { numbers.insert(numbers.end(), values.begin(), values.end()); };
     add(floors_.accelerations());
@@ -35,6 +37,11 @@ class StructurePeakObserver final : public StructureSink, public MemberTally {
   void follow(const Expansion& motion, Mode) override {
     count_work();
     floors_.include(motion);
+  }
+  bool pass(const LinearMove& move, const StructureState&, double) override {
+    count_work();
+    floors_.include(move);
+    return true;
   }
 
  private:
@@ -52,7 +59,10 @@ void simulate_member(const SlidingStructure& system, const GroundMotion& motion,
   StructurePeakObserver observer(of, rows, block, max_events(motion.segments() + block.times().count));
   with_interface_law(system.slider(), [&](const auto& law) {
     LawExpansion expansion(of, law, mean_step(motion));
-    const auto go = [&](const LoadSegment& segment) { move_structure(of, law, segment, state, expansion, observer); };
+    LinearPath path(system, law, motion, true);
+    const auto go = [&](const LoadSegment& segment) {
+      if (!path.pass(segment, state, observer)) move_structure(of, law, segment, state, expansion, observer);
+    };
     const auto keep = [&](std::size_t time) { place.keep(time, state.displacement, state.velocity); };
     go_through(LoadPieces(motion, 0), motion.segments(), block, go, keep);
     if (settle)

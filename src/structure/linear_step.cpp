@@ -18,8 +18,8 @@ namespace {
 
 using Eigen::Index;
 
-// An expansion of a part reaches this far, divided by the fastest rate: its terms do not grow before they fall.
-constexpr double step_reach = 1;
+// An expansion of a part reaches this far, divided by the fastest rate: its terms hardly grow before they fall.
+constexpr double step_reach = 2;
 
 // With rows of zeros to a multiple of those that a product takes together.
 Eigen::MatrixXd padded(Index rows, Index columns) {
@@ -49,7 +49,7 @@ bool LinearStep::pays(const ModalInterface& of, double step, bool sliding, std::
   const double expansions = std::max(1.0, std::ceil(of.fastest * step / 3));
   const double parts = std::max(8.0, of.fastest * step / step_reach);
   const double sources = single_modes(of, sliding) ? 5 : 2 * static_cast<double>(of.modes()) + 7;
-  return sources * parts <= static_cast<double>(steps) * expansions;
+  return 2 * sources * parts <= static_cast<double>(steps) * expansions;
 }
 
 LinearStep::LinearStep(const ModalInterface& of, double step, bool sliding, const FloorRows* rows)

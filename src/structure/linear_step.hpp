@@ -29,7 +29,7 @@ class LinearStep {
   using Index = Eigen::Index;
   static constexpr Index most_modes = 200;  ///< a map of sliding has 1.3 MB
 
-  /// Whether its computation, as long as that of some steps by series, is worth while for so many steps.
+  /// Whether its computation, which takes as long as some hundred steps by series, is worth while for so many steps.
   static bool pays(const ModalInterface& of, double step, bool sliding, std::size_t steps);
 
   /// @param rows  null: floors are not watched
