@@ -18,8 +18,16 @@ namespace {
 
 using Eigen::Index;
 
-// An expansion of a part reaches this far, divided by the fastest rate: its terms hardly grow before they fall.
-constexpr double step_reach = 2;
+// Of the finest chords of all floors: 8 MB.
+constexpr Index most_entries = 500'000;
+
+// Chords of a step: few at first. The finest are so short that the fastest mode remains close to them; each is one
+// expansion.
+constexpr Index few_chords = 8;
+Index most_chords(const ModalInterface& of, double step) {
+  constexpr double reach = 0.6;
+  return few_chords * std::max(Index{1}, static_cast<Index>(std::ceil(of.fastest * step / (reach * few_chords))));
+}
 
 // With rows of zeros to a multiple of those that a product takes together.
 Eigen::MatrixXd padded(Index rows, Index columns) {
@@ -44,12 +52,14 @@ struct LinearStep::Source {
   double start, end, friction;
 };
 
-bool LinearStep::pays(const ModalInterface& of, double step, bool sliding, std::size_t steps) {
+bool LinearStep::pays(const ModalInterface& of, double step, bool sliding, bool floors, std::size_t steps) {
   if (!std::isfinite(step) || of.modes() > most_modes) return false;
   const double expansions = std::max(1.0, std::ceil(of.fastest * step / 3));
-  const double parts = std::max(8.0, of.fastest * step / step_reach);
   const double sources = single_modes(of, sliding) ? 5 : 2 * static_cast<double>(of.modes()) + 7;
-  return 2 * sources * parts <= static_cast<double>(steps) * expansions;
+  const double watched = floors ? static_cast<double>(2 * of.shapes.rows() + of.floor_mass.rows() + 3) : 1;
+  // An expansion of a chord takes half as long as one of a step.
+  return sources * static_cast<double>(most_chords(of, step)) * (1 + watched / 8) <=
+         2 * static_cast<double>(steps) * expansions;
 }
 
 LinearStep::LinearStep(const ModalInterface& of, double step, bool sliding, const FloorRows* rows)
@@ -58,7 +68,7 @@ LinearStep::LinearStep(const ModalInterface& of, double step, bool sliding, cons
       modes_(of.modes()),
       states_(2 * modes_ + (sliding ? 2 : 0)),
       drives_(sliding ? 3 : 2),
-      parts_(chords * std::max(Index{1}, static_cast<Index>(std::ceil(of.fastest * step / (step_reach * chords))))),
+      parts_(most_chords(of, step)),
       watched_(0) {
   const bool single = single_modes(of, sliding);
   const Index n = modes_, m = states_;
@@ -79,8 +89,12 @@ LinearStep::LinearStep(const ModalInterface& of, double step, bool sliding, cons
   watched_ = watched.rows();
   ends_ = padded(2 * watched_, size());
   apart_ = padded(watched_, size());
-  parts_ends_.assign(static_cast<std::size_t>(watched_), padded(chords, size()));
-  parts_apart_ = parts_ends_;
+  for (Index i = 0; i < watched_; ++i) {
+    std::vector<Chords> levels{{few_chords, padded(few_chords, size()), padded(few_chords, size())}};
+    if (parts_ > few_chords && (i == 0 || watched_ * parts_ * size() <= most_entries))
+      levels.push_back({parts_, padded(parts_, size()), padded(parts_, size())});
+    chords_.push_back(std::move(levels));
+  }
   ends_.topLeftCorner(watched_, m + 1) = watched.leftCols(m + 1);
   if (sliding) ends_.col(m + 2).head(watched_) = watched.col(m + 1);
 
@@ -229,42 +243,36 @@ std::vector<Eigen::MatrixXd> LinearStep::run(const ModalInterface& of, const Sou
 void LinearStep::watch_ends(Index entry, const std::vector<Eigen::MatrixXd>& values) {
   for (Index i = 0; i < watched_; ++i) {
     ends_(watched_ + i, entry) = values.back().row(i).sum();
-    for (Index c = 0; c < chords; ++c)
-      parts_ends_[static_cast<std::size_t>(i)](c, entry) =
-          values[static_cast<std::size_t>(parts_ / chords * (c + 1) - 1)].row(i).sum();
+    for (Chords& chords : chords_[static_cast<std::size_t>(i)])
+      for (Index c = 0; c < chords.count; ++c)
+        chords.ends(c, entry) = values[static_cast<std::size_t>(parts_ / chords.count * (c + 1) - 1)].row(i).sum();
   }
 }
 
 void LinearStep::watch_departures(Index entry, const std::vector<Eigen::MatrixXd>& values) {
-  const Index each = parts_ / chords;
+  std::vector<double> at(static_cast<std::size_t>(parts_ + 1));  // at the ends of the parts
   for (Index i = 0; i < watched_; ++i) {
-    const auto end = [&](Index part) {
-      return part < 0 ? values[0](i, 0) : values[static_cast<std::size_t>(part)].row(i).sum();
-    };
-    const double first = end(-1), last = end(parts_ - 1);
-    double whole = 0;
-    for (Index c = 0; c < chords; ++c) {
-      const double from = end(c * each - 1), to = end((c + 1) * each - 1);
-      double apart = 0;
-      for (Index p = 0; p < each; ++p) {
-        // The polynomial is within its Bernstein coefficients, and so is its distance from a straight line.
-        const Eigen::MatrixXd& part = values[static_cast<std::size_t>(c * each + p)];
-        const int degree = static_cast<int>(part.cols()) - 1;
-        Polynomial power{};
-        for (int k = 0; k <= degree; ++k) power[static_cast<std::size_t>(k)] = part(i, k);
-        const Polynomial b = bernstein(power.data(), degree);
+    at[0] = values[0](i, 0);
+    for (std::size_t p = 0; p < values.size(); ++p) at[p + 1] = values[p].row(i).sum();
+    for (std::size_t p = 0; p < values.size(); ++p) {
+      // The polynomial is within its Bernstein coefficients, and so is its distance from a straight line.
+      const int degree = static_cast<int>(values[p].cols()) - 1;
+      Polynomial power{};
+      for (int k = 0; k <= degree; ++k) power[static_cast<std::size_t>(k)] = values[p](i, k);
+      const Polynomial b = bernstein(power.data(), degree);
+      const auto extend = [&](double& apart, Index count) {
+        const std::size_t each = static_cast<std::size_t>(parts_ / count), first = p / each * each;
+        const double from = at[first], to = at[first + each];
         for (int k = 0; k <= degree; ++k) {
-          const double within = static_cast<double>(p) + static_cast<double>(k) / degree;
-          const double u = within / static_cast<double>(each);
-          const double of_whole = (static_cast<double>(c) + u) / chords;
-          const double value = b[static_cast<std::size_t>(k)];
-          apart = std::max(apart, std::abs(value - (from + u * (to - from))));
-          whole = std::max(whole, std::abs(value - (first + of_whole * (last - first))));
+          const double u =
+              (static_cast<double>(p - first) + static_cast<double>(k) / degree) / static_cast<double>(each);
+          apart = std::max(apart, std::abs(b[static_cast<std::size_t>(k)] - (from + u * (to - from))));
         }
-      }
-      parts_apart_[static_cast<std::size_t>(i)](c, entry) = apart;
+      };
+      extend(apart_(i, entry), 1);
+      for (Chords& chords : chords_[static_cast<std::size_t>(i)])
+        extend(chords.apart(static_cast<Index>(p) * chords.count / parts_, entry), chords.count);
     }
-    apart_(i, entry) = whole;
   }
 }
 
@@ -307,22 +315,18 @@ bool LinearMove::remains(Index quantity, double first, double last, double low, 
   };
   if (!(std::min(first, last) >= low && std::max(first, last) <= high)) return false;
   if (within(first, last, apart_[quantity])) return true;
-  using Eight = Eigen::Matrix<double, LinearStep::chords, 1>;
-  const auto of_parts = [&](const std::vector<Eigen::MatrixXd>& matrices, const Eigen::VectorXd& vector) {
-    Eight result;
-    const Eigen::MatrixXd& matrix = matrices[static_cast<std::size_t>(quantity)];
-    matrix_vector(matrix.data(), LinearStep::chords, static_cast<std::size_t>(matrix.cols()), vector.data(),
-                  result.data());
-    return result;
-  };
-  const Eight ends = of_parts(step_->parts_ends_, from_), apart = of_parts(step_->parts_apart_, beside_);
-  double now = first;
-  for (Index c = 0; c < LinearStep::chords; ++c) {
-    const double next = ends[c];
-    if (!within(now, next, apart[c])) return false;
-    now = next;
+  for (const LinearStep::Chords& chords : step_->chords_[static_cast<std::size_t>(quantity)]) {
+    chord_ends_.resize(chords.count);
+    chord_apart_.resize(chords.count);
+    multiply(chords.ends, from_, chord_ends_);
+    multiply(chords.apart, beside_, chord_apart_);
+    double now = first;
+    Index c = 0;
+    while (c < chords.count && within(now, chord_ends_[c], chord_apart_[c])) now = chord_ends_[c++];
+    if (c == chords.count) return true;
+    if (!(now >= low && now <= high && chord_ends_[c] >= low && chord_ends_[c] <= high)) return false;
   }
-  return true;
+  return false;
 }
 
 void LinearMove::expand(const ModalInterface& of, const std::function<void(const Expansion&)>& use) const {
@@ -383,7 +387,7 @@ void LinearMove::write(StructureState& state) const {
 
 std::shared_ptr<const LinearStep> LinearSteps::get(const ModalInterface& of, double step, bool sliding, bool floors,
                                                    std::size_t steps) {
-  if (!LinearStep::pays(of, step, sliding, steps)) return nullptr;
+  if (!LinearStep::pays(of, step, sliding, floors, steps)) return nullptr;
   const std::lock_guard lock(mutex_);
   for (const auto& [with_floors, known] : known_)
     if (with_floors == floors && known->sliding() == sliding && equal(known->duration(), step)) return known;

@@ -30,7 +30,7 @@ class LinearStep {
   static constexpr Index most_modes = 200;  ///< a map of sliding has 1.3 MB
 
   /// Whether its computation, which takes as long as some hundred steps by series, is worth while for so many steps.
-  static bool pays(const ModalInterface& of, double step, bool sliding, std::size_t steps);
+  static bool pays(const ModalInterface& of, double step, bool sliding, bool floors, std::size_t steps);
 
   /// @param rows  null: floors are not watched
   LinearStep(const ModalInterface& of, double step, bool sliding, const FloorRows* rows);
@@ -44,7 +44,11 @@ class LinearStep {
 
  private:
   friend class LinearMove;
-  static constexpr Index chords = 8;
+  // A quantity at the ends of equal parts, and its largest distance from the chord in each: one row each.
+  struct Chords {
+    Index count;
+    Eigen::MatrixXd ends{}, apart{};
+  };
 
   struct Source;
   std::vector<Eigen::MatrixXd> run(const ModalInterface& of, const Source& source) const;
@@ -60,7 +64,7 @@ class LinearStep {
   Eigen::VectorXd moved_{};   // mean of the displacement on which the ground works, from its start
   // What is watched, at the start and at the end, and its largest distance from the chord: one row each.
   Eigen::MatrixXd ends_{}, apart_{};
-  std::vector<Eigen::MatrixXd> parts_ends_{}, parts_apart_{};  // the same of the parts of each
+  std::vector<std::vector<Chords>> chords_{};  // of each, the coarsest first
 };
 
 /// One segment by a step.
@@ -97,6 +101,7 @@ class LinearMove {
   std::shared_ptr<const LinearStep> step_;
   Eigen::VectorXd from_, beside_, to_;  // the vector, magnitudes of it beside a steady motion, and the state at the end
   Eigen::VectorXd ends_, apart_;        // of what is watched
+  mutable Eigen::VectorXd chord_ends_{}, chord_apart_{};
   double change_ = 0;
 };
 
