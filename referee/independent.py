@@ -440,7 +440,8 @@ class Series(Model):
     def __init__(self, system):
         self.g = arb(system["gravity"])
         self.parts = [
-            (arb(e["radius"]), arb(e["mu"]), arb(e["capacity"])) for e in system["friction"]["elements"]
+            (arb(e["radius"]), arb(e["mu"]), arb(e["capacity"]))
+            for e in system["friction"]["elements"]
         ]
 
     def thresholds(self, s, state):
@@ -712,7 +713,9 @@ def answer(problem, order=ORDER, fineness=1, leave=50):
             kind, lambda: 2 * len(model.modes)
         )()
         state = [x[0], v[0], *(0,) * more]
-    mode, state, peak, events = solve(model, "begin", state, ground["dt"], components, order, fineness)
+    mode, state, peak, events = solve(
+        model, "begin", state, ground["dt"], components, order, fineness
+    )
     if kind == "rocking":
         fell = getattr(model, "fell", 0)
         return {"overturned": [arb(fell)], "final_rotation": [state[0]], "peak_rotation": [peak]}

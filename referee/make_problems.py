@@ -43,7 +43,9 @@ def hum(factor=1.0, dt=0.05, duration=10.0, vertical=None, transverse=None):
         "along": rounded(factor * (2 * np.sin(4.1 * t) + 1.3 * np.cos(9.7 * t + 0.4))),
     }
     if transverse:
-        ground["formula"] += f"; transverse = {transverse:g} (1.5 sin(5.3 t + 1.1) + 0.8 cos(11.3 t))"
+        ground["formula"] += (
+            f"; transverse = {transverse:g} (1.5 sin(5.3 t + 1.1) + 0.8 cos(11.3 t))"
+        )
         ground["transverse"] = rounded(
             transverse * (1.5 * np.sin(5.3 * t + 1.1) + 0.8 * np.cos(11.3 * t))
         )
@@ -58,7 +60,9 @@ def burst(factor=1.0, dt=0.02, duration=8.0, vertical=None, transverse=None):
     """Grows and decays as an earthquake does."""
     t = times(dt, duration)
     shape = (t / 2) ** 2 * np.exp(2 - t)
-    along = shape * (2.4 * np.sin(7.3 * t) + 1.6 * np.sin(13.1 * t + 1) + 0.9 * np.sin(23.7 * t + 2))
+    along = shape * (
+        2.4 * np.sin(7.3 * t) + 1.6 * np.sin(13.1 * t + 1) + 0.9 * np.sin(23.7 * t + 2)
+    )
     ground = {
         "dt": dt,
         "formula": f"along = {factor:g} e(t) (2.4 sin(7.3 t) + 1.6 sin(13.1 t + 1) + 0.9 sin(23.7 t + 2)),"
@@ -66,7 +70,9 @@ def burst(factor=1.0, dt=0.02, duration=8.0, vertical=None, transverse=None):
         "along": rounded(factor * along),
     }
     if transverse:
-        ground["formula"] += f"; transverse = {transverse:g} e(t) (2 sin(6.1 t + 0.5) + 1.5 sin(15.3 t))"
+        ground["formula"] += (
+            f"; transverse = {transverse:g} e(t) (2 sin(6.1 t + 0.5) + 1.5 sin(15.3 t))"
+        )
         ground["transverse"] = rounded(
             transverse * shape * (2 * np.sin(6.1 * t + 0.5) + 1.5 * np.sin(15.3 * t))
         )
@@ -144,7 +150,11 @@ def column(mu, count, height, velocity, damping, **more):
     modes = []
     for j in range(1, count + 1):
         modes.append(
-            (8 / ((2 * j - 1) ** 2 * math.pi**2), (2 * j - 1) * math.pi * velocity / (2 * height), damping)
+            (
+                8 / ((2 * j - 1) ** 2 * math.pi**2),
+                (2 * j - 1) * math.pi * velocity / (2 * height),
+                damping,
+            )
         )
     system = isolated(mu, modes, one_way=True, **more)
     system["column"] = {"height": height, "shear_velocity": velocity, "damping_ratio": damping}
@@ -157,7 +167,14 @@ def on_floor(mu, frequency, damping, ratio, **more):
 
 
 def rocking(p, alpha, restitution, **more):
-    return {"kind": "rocking", "gravity": G, "p": p, "alpha": alpha, "restitution": restitution, **more}
+    return {
+        "kind": "rocking",
+        "gravity": G,
+        "p": p,
+        "alpha": alpha,
+        "restitution": restitution,
+        **more,
+    }
 
 
 def bearing(*elements):
@@ -205,153 +222,483 @@ def listed():
     """(class, id, description, system, ground, more)."""
     # ---- stick
     rest = "It must not move at all. "
-    yield STICK, "stick-sine", rest + "A sine of 0.98 of the friction.", slider(coulomb(0.2)), sine(1.92, 6.3), {}
-    yield STICK, "stick-slope", rest + "A slope of 11 degrees, no ground motion: tan(11) = 0.194 < 0.2.", slider(
-        coulomb(0.2), slope_degrees=11.0
-    ), constant(0.0, 20.0), {}
-    yield STICK, "stick-slope-sine", rest + "The same slope, with a sine that takes what is left.", slider(
-        coulomb(0.25), slope_degrees=11.0
-    ), sine(0.5, 9.0), {}
-    yield STICK, "stick-vertical", rest + "Vertical motion lightens the block; together just below the friction.", slider(
-        coulomb(0.3)
-    ), sine(1.5, 5.0, vertical=(4.0, 5.0, 0.0)), {}
-    yield STICK, "stick-displaced", rest + "A spring pulls it with 0.99 of the friction, no ground motion.", slider(
-        coulomb(0.1), spring=3.0
-    ), constant(0.0, 20.0), {"start": {"displacement": [0.1078]}}
-    yield STICK, "stick-static", rest + "The load is above kinetic and below static friction.", slider(
-        {"kind": "static_kinetic", "mu_static": 0.3, "mu_kinetic": 0.2}
-    ), sine(2.9, 4.0), {}
-    yield STICK, "stick-planar", rest + "A load that turns in a circle within the circle of friction.", planar(
-        0.2
-    ), sine(1.94, 5.0, transverse=(1.94, 5.0, 1.5707963)), {}
-    yield STICK, "stick-after-slip", "It slides once, early; then it must stay for 18 s under half of the friction.", slider(
-        coulomb(0.1)
-    ), pulse_then_sine(), {}
+    yield (
+        STICK,
+        "stick-sine",
+        rest + "A sine of 0.98 of the friction.",
+        slider(coulomb(0.2)),
+        sine(1.92, 6.3),
+        {},
+    )
+    yield (
+        STICK,
+        "stick-slope",
+        rest + "A slope of 11 degrees, no ground motion: tan(11) = 0.194 < 0.2.",
+        slider(coulomb(0.2), slope_degrees=11.0),
+        constant(0.0, 20.0),
+        {},
+    )
+    yield (
+        STICK,
+        "stick-slope-sine",
+        rest + "The same slope, with a sine that takes what is left.",
+        slider(coulomb(0.25), slope_degrees=11.0),
+        sine(0.5, 9.0),
+        {},
+    )
+    yield (
+        STICK,
+        "stick-vertical",
+        rest + "Vertical motion lightens the block; together just below the friction.",
+        slider(coulomb(0.3)),
+        sine(1.5, 5.0, vertical=(4.0, 5.0, 0.0)),
+        {},
+    )
+    yield (
+        STICK,
+        "stick-displaced",
+        rest + "A spring pulls it with 0.99 of the friction, no ground motion.",
+        slider(coulomb(0.1), spring=3.0),
+        constant(0.0, 20.0),
+        {"start": {"displacement": [0.1078]}},
+    )
+    yield (
+        STICK,
+        "stick-static",
+        rest + "The load is above kinetic and below static friction.",
+        slider({"kind": "static_kinetic", "mu_static": 0.3, "mu_kinetic": 0.2}),
+        sine(2.9, 4.0),
+        {},
+    )
+    yield (
+        STICK,
+        "stick-planar",
+        rest + "A load that turns in a circle within the circle of friction.",
+        planar(0.2),
+        sine(1.94, 5.0, transverse=(1.94, 5.0, 1.5707963)),
+        {},
+    )
+    yield (
+        STICK,
+        "stick-after-slip",
+        "It slides once, early; then it must stay for 18 s under half of the friction.",
+        slider(coulomb(0.1)),
+        pulse_then_sine(),
+        {},
+    )
 
     # ---- one record
-    yield RECORD, "record-hum", "Two tones, friction of 0.1: it slides most of the time.", slider(coulomb(0.1)), hum(), {}
-    yield RECORD, "record-hum-high", "Two tones, friction of 0.25: short slips.", slider(coulomb(0.25)), hum(), {}
-    yield RECORD, "record-burst", "A burst of three tones, friction of 0.15.", slider(coulomb(0.15)), burst(), {}
-    yield RECORD, "record-newmark", "Newmark's block: it cannot slide back.", slider(
-        coulomb(0.12, one_way=True)
-    ), burst(1.2), {}
-    yield RECORD, "record-slope", "A slope of 15 degrees, friction of 0.35, both ways.", slider(
-        coulomb(0.35), slope_degrees=15.0
-    ), burst(0.8), {}
-    yield RECORD, "record-unequal", "Unequal friction forward and backward.", slider(
-        coulomb(0.08, mu_backward=0.16)
-    ), hum(), {}
-    yield RECORD, "record-pulse", "One cycle of a sine, as near a fault.", slider(coulomb(0.2)), pulse(5.0), {}
-    yield RECORD, "record-braking", "No ground motion: a block that slides at 2 m/s comes to rest after v^2/(2 mu g).", slider(
-        coulomb(0.3)
-    ), constant(0.0, 2.0), {"start": {"velocity": [2.0]}, "closed": braking}
+    yield (
+        RECORD,
+        "record-hum",
+        "Two tones, friction of 0.1: it slides most of the time.",
+        slider(coulomb(0.1)),
+        hum(),
+        {},
+    )
+    yield (
+        RECORD,
+        "record-hum-high",
+        "Two tones, friction of 0.25: short slips.",
+        slider(coulomb(0.25)),
+        hum(),
+        {},
+    )
+    yield (
+        RECORD,
+        "record-burst",
+        "A burst of three tones, friction of 0.15.",
+        slider(coulomb(0.15)),
+        burst(),
+        {},
+    )
+    yield (
+        RECORD,
+        "record-newmark",
+        "Newmark's block: it cannot slide back.",
+        slider(coulomb(0.12, one_way=True)),
+        burst(1.2),
+        {},
+    )
+    yield (
+        RECORD,
+        "record-slope",
+        "A slope of 15 degrees, friction of 0.35, both ways.",
+        slider(coulomb(0.35), slope_degrees=15.0),
+        burst(0.8),
+        {},
+    )
+    yield (
+        RECORD,
+        "record-unequal",
+        "Unequal friction forward and backward.",
+        slider(coulomb(0.08, mu_backward=0.16)),
+        hum(),
+        {},
+    )
+    yield (
+        RECORD,
+        "record-pulse",
+        "One cycle of a sine, as near a fault.",
+        slider(coulomb(0.2)),
+        pulse(5.0),
+        {},
+    )
+    yield (
+        RECORD,
+        "record-braking",
+        "No ground motion: a block that slides at 2 m/s comes to rest after v^2/(2 mu g).",
+        slider(coulomb(0.3)),
+        constant(0.0, 2.0),
+        {"start": {"velocity": [2.0]}, "closed": braking},
+    )
 
     # ---- laws of the speed
     velocity = {"kind": "velocity", "mu_slow": 0.06, "mu_fast": 0.15, "rate": 20.0}
-    yield SPEED, "speed-teflon", "Friction rises with the speed, as on PTFE.", slider(velocity), hum(), {}
-    yield SPEED, "speed-teflon-spring", "The same with a spring.", slider(velocity, spring=2.5), burst(1.2), {}
-    yield SPEED, "speed-stribeck", "Friction falls with the speed (exponent 1), with a spring.", slider(
-        {"kind": "stribeck", "mu_static": 0.16, "mu_kinetic": 0.1, "velocity": 0.1, "exponent": 1}, spring=4.0
-    ), hum(), {}
-    yield SPEED, "speed-stribeck-2", "Friction falls with the speed (exponent 2).", slider(
-        {"kind": "stribeck", "mu_static": 0.16, "mu_kinetic": 0.1, "velocity": 0.1, "exponent": 2}
-    ), burst(), {}
-    yield SPEED, "speed-static", "Static friction above kinetic.", slider(
-        {"kind": "static_kinetic", "mu_static": 0.16, "mu_kinetic": 0.1}
-    ), hum(), {}
-    yield SPEED, "speed-static-spring", "Static friction far above kinetic, with a spring: every breakaway is a jump.", slider(
-        {"kind": "static_kinetic", "mu_static": 0.2, "mu_kinetic": 0.06}, spring=5.0
-    ), burst(1.5), {}
+    yield (
+        SPEED,
+        "speed-teflon",
+        "Friction rises with the speed, as on PTFE.",
+        slider(velocity),
+        hum(),
+        {},
+    )
+    yield (
+        SPEED,
+        "speed-teflon-spring",
+        "The same with a spring.",
+        slider(velocity, spring=2.5),
+        burst(1.2),
+        {},
+    )
+    yield (
+        SPEED,
+        "speed-stribeck",
+        "Friction falls with the speed (exponent 1), with a spring.",
+        slider(
+            {
+                "kind": "stribeck",
+                "mu_static": 0.16,
+                "mu_kinetic": 0.1,
+                "velocity": 0.1,
+                "exponent": 1,
+            },
+            spring=4.0,
+        ),
+        hum(),
+        {},
+    )
+    yield (
+        SPEED,
+        "speed-stribeck-2",
+        "Friction falls with the speed (exponent 2).",
+        slider(
+            {
+                "kind": "stribeck",
+                "mu_static": 0.16,
+                "mu_kinetic": 0.1,
+                "velocity": 0.1,
+                "exponent": 2,
+            }
+        ),
+        burst(),
+        {},
+    )
+    yield (
+        SPEED,
+        "speed-static",
+        "Static friction above kinetic.",
+        slider({"kind": "static_kinetic", "mu_static": 0.16, "mu_kinetic": 0.1}),
+        hum(),
+        {},
+    )
+    yield (
+        SPEED,
+        "speed-static-spring",
+        "Static friction far above kinetic, with a spring: every breakaway is a jump.",
+        slider({"kind": "static_kinetic", "mu_static": 0.2, "mu_kinetic": 0.06}, spring=5.0),
+        burst(1.5),
+        {},
+    )
 
     # ---- vertical motion
-    yield VERTICAL, "vertical-mild", "Vertical motion of a quarter of gravity.", slider(coulomb(0.1)), hum(vertical=2.5), {}
-    yield VERTICAL, "vertical-unloading", "It breaks away because the ground drops under it, at constant push.", slider(
-        coulomb(0.3)
-    ), sine_on_constant(), {}
-    yield VERTICAL, "vertical-spring", "With a spring.", slider(coulomb(0.1), spring=4.0), burst(vertical=4.0), {}
-    yield VERTICAL, "vertical-slope", "On a slope: both components change load and normal force.", slider(
-        coulomb(0.35), slope_degrees=12.0
-    ), burst(vertical=3.0), {}
-    yield VERTICAL, "vertical-pendulum", "A friction pendulum: its spring is the normal force over the radius.", slider(
-        coulomb(0.06), pendulum_radius=1.5
-    ), burst(vertical=4.0), {}
+    yield (
+        VERTICAL,
+        "vertical-mild",
+        "Vertical motion of a quarter of gravity.",
+        slider(coulomb(0.1)),
+        hum(vertical=2.5),
+        {},
+    )
+    yield (
+        VERTICAL,
+        "vertical-unloading",
+        "It breaks away because the ground drops under it, at constant push.",
+        slider(coulomb(0.3)),
+        sine_on_constant(),
+        {},
+    )
+    yield (
+        VERTICAL,
+        "vertical-spring",
+        "With a spring.",
+        slider(coulomb(0.1), spring=4.0),
+        burst(vertical=4.0),
+        {},
+    )
+    yield (
+        VERTICAL,
+        "vertical-slope",
+        "On a slope: both components change load and normal force.",
+        slider(coulomb(0.35), slope_degrees=12.0),
+        burst(vertical=3.0),
+        {},
+    )
+    yield (
+        VERTICAL,
+        "vertical-pendulum",
+        "A friction pendulum: its spring is the normal force over the radius.",
+        slider(coulomb(0.06), pendulum_radius=1.5),
+        burst(vertical=4.0),
+        {},
+    )
     yield VERTICAL, "vertical-flight", FLIES, slider(coulomb(0.15)), burst(vertical=14.0), {}
-    yield VERTICAL, "vertical-clipped", CLIPPED, slider(coulomb(0.15), contact="clipped"), burst(vertical=14.0), {}
+    yield (
+        VERTICAL,
+        "vertical-clipped",
+        CLIPPED,
+        slider(coulomb(0.15), contact="clipped"),
+        burst(vertical=14.0),
+        {},
+    )
 
     # ---- two directions
-    yield TWO, "planar-braking", "A sliding block under a constant load across its path comes to rest: one stop.", planar(
-        0.2
-    ), constant(0.4, 3.0, transverse=-0.7), {"start": {"velocity": [1.0, 0.2]}}
-    yield TWO, "planar-hum", "Two components of two tones each.", planar(0.1), hum(transverse=1.0), {}
+    yield (
+        TWO,
+        "planar-braking",
+        "A sliding block under a constant load across its path comes to rest: one stop.",
+        planar(0.2),
+        constant(0.4, 3.0, transverse=-0.7),
+        {"start": {"velocity": [1.0, 0.2]}},
+    )
+    yield (
+        TWO,
+        "planar-hum",
+        "Two components of two tones each.",
+        planar(0.1),
+        hum(transverse=1.0),
+        {},
+    )
     yield TWO, "planar-burst", "Two components of a burst.", planar(0.15), burst(transverse=1.0), {}
-    yield TWO, "planar-spring", "Two components and a spring.", planar(0.1, spring=2.0), burst(transverse=1.0), {}
-    yield TWO, "planar-vertical", "Three components.", planar(0.12), burst(transverse=1.0, vertical=4.0), {}
+    yield (
+        TWO,
+        "planar-spring",
+        "Two components and a spring.",
+        planar(0.1, spring=2.0),
+        burst(transverse=1.0),
+        {},
+    )
+    yield (
+        TWO,
+        "planar-vertical",
+        "Three components.",
+        planar(0.12),
+        burst(transverse=1.0, vertical=4.0),
+        {},
+    )
     for digits in (3, 6, 9):
         miss = float(f"1e-{digits}")
-        yield TWO, f"planar-miss-1e-{digits}", MISSES.format(digits), planar(0.1), constant(
-            -2.0, 1.0, transverse=0.0
-        ), {"start": {"velocity": [-1.0, miss]}}
+        yield (
+            TWO,
+            f"planar-miss-1e-{digits}",
+            MISSES.format(digits),
+            planar(0.1),
+            constant(-2.0, 1.0, transverse=0.0),
+            {"start": {"velocity": [-1.0, miss]}},
+        )
 
     # ---- springs, stops and bearings
-    yield SPRINGS, "spring-free", "A block on a spring comes to rest from 0.3 m without ground motion.", slider(
-        coulomb(0.05), spring=5.0
-    ), constant(0.0, 6.0), {"start": {"displacement": [0.3]}, "closed": ring_down}
-    yield SPRINGS, "spring-soft", "An isolator of 3.1 s.", slider(coulomb(0.05), spring=2.0), burst(1.5), {}
+    yield (
+        SPRINGS,
+        "spring-free",
+        "A block on a spring comes to rest from 0.3 m without ground motion.",
+        slider(coulomb(0.05), spring=5.0),
+        constant(0.0, 6.0),
+        {"start": {"displacement": [0.3]}, "closed": ring_down},
+    )
+    yield (
+        SPRINGS,
+        "spring-soft",
+        "An isolator of 3.1 s.",
+        slider(coulomb(0.05), spring=2.0),
+        burst(1.5),
+        {},
+    )
     yield SPRINGS, "spring-stiff", "A stiff spring.", slider(coulomb(0.1), spring=20.0), hum(), {}
-    yield SPRINGS, "spring-damper", "A spring and a damper.", slider(coulomb(0.05), spring=4.0, damping=0.8), hum(), {}
-    yield SPRINGS, "spring-overdamped", "A damper beyond the critical one.", slider(
-        coulomb(0.03), spring=3.0, damping=15.0
-    ), burst(1.5), {}
-    yield SPRINGS, "stops-rebound", "Stops at 5 cm, restitution 0.6.", slider(
-        coulomb(0.05), stops={"gap": 0.05, "restitution": 0.6}
-    ), hum(), {}
-    yield SPRINGS, "stops-plastic", "Stops at 8 cm, without rebound.", slider(
-        coulomb(0.05), stops={"gap": 0.08, "restitution": 0.0}
-    ), hum(), {}
-    yield SPRINGS, "bearing-double", "A double pendulum.", bearing((1.2, 0.03, 0.3), (2.0, 0.08, 0.4)), burst(1.2), {}
-    yield SPRINGS, "bearing-triple", "A triple pendulum, as four elements in series.", triple(
-        (0.3, 1.5, 1.5), (0.02, 0.05, 0.09), (0.03, 0.4, 0.4)
-    ), burst(2.0), {}
+    yield (
+        SPRINGS,
+        "spring-damper",
+        "A spring and a damper.",
+        slider(coulomb(0.05), spring=4.0, damping=0.8),
+        hum(),
+        {},
+    )
+    yield (
+        SPRINGS,
+        "spring-overdamped",
+        "A damper beyond the critical one.",
+        slider(coulomb(0.03), spring=3.0, damping=15.0),
+        burst(1.5),
+        {},
+    )
+    yield (
+        SPRINGS,
+        "stops-rebound",
+        "Stops at 5 cm, restitution 0.6.",
+        slider(coulomb(0.05), stops={"gap": 0.05, "restitution": 0.6}),
+        hum(),
+        {},
+    )
+    yield (
+        SPRINGS,
+        "stops-plastic",
+        "Stops at 8 cm, without rebound.",
+        slider(coulomb(0.05), stops={"gap": 0.08, "restitution": 0.0}),
+        hum(),
+        {},
+    )
+    yield (
+        SPRINGS,
+        "bearing-double",
+        "A double pendulum.",
+        bearing((1.2, 0.03, 0.3), (2.0, 0.08, 0.4)),
+        burst(1.2),
+        {},
+    )
+    yield (
+        SPRINGS,
+        "bearing-triple",
+        "A triple pendulum, as four elements in series.",
+        triple((0.3, 1.5, 1.5), (0.02, 0.05, 0.09), (0.03, 0.4, 0.4)),
+        burst(2.0),
+        {},
+    )
 
     # ---- structures
-    yield STRUCTURES, "isolated-one", "A building of one mode on a sliding base.", isolated(
-        0.1, [(0.7, 12.0, 0.03)]
-    ), hum(), {}
-    yield STRUCTURES, "isolated-pendulum", "A building of two modes on a base with a spring.", isolated(
-        0.06, [(0.6, 9.0, 0.02), (0.15, 27.0, 0.03)], spring=2.2
-    ), burst(1.5), {}
-    yield STRUCTURES, "isolated-stuck", "Friction above what the building can ask for: the base must not move.", isolated(
-        0.6, [(0.7, 12.0, 0.05)]
-    ), burst(0.5), {}
-    yield STRUCTURES, "floor-light", "Light equipment on a floor of 2 Hz.", on_floor(0.2, 12.566, 0.03, 0.0), burst(0.8), {}
-    yield STRUCTURES, "floor-heavy", "Equipment of a third of the mass of the floor.", on_floor(
-        0.15, 9.0, 0.02, 0.333
-    ), hum(), {}
-    yield STRUCTURES, "slope-decoupled", "The average acceleration of a soil column drives Newmark's block.", column(
-        0.1, 1, 20.0, 150.0, 0.1, decoupled=True
-    ), burst(), {}
-    yield STRUCTURES, "slope-coupled", "A soil column of one mode slides itself, downhill only.", column(
-        0.1, 1, 20.0, 150.0, 0.1
-    ), burst(), {}
+    yield (
+        STRUCTURES,
+        "isolated-one",
+        "A building of one mode on a sliding base.",
+        isolated(0.1, [(0.7, 12.0, 0.03)]),
+        hum(),
+        {},
+    )
+    yield (
+        STRUCTURES,
+        "isolated-pendulum",
+        "A building of two modes on a base with a spring.",
+        isolated(0.06, [(0.6, 9.0, 0.02), (0.15, 27.0, 0.03)], spring=2.2),
+        burst(1.5),
+        {},
+    )
+    yield (
+        STRUCTURES,
+        "isolated-stuck",
+        "Friction above what the building can ask for: the base must not move.",
+        isolated(0.6, [(0.7, 12.0, 0.05)]),
+        burst(0.5),
+        {},
+    )
+    yield (
+        STRUCTURES,
+        "floor-light",
+        "Light equipment on a floor of 2 Hz.",
+        on_floor(0.2, 12.566, 0.03, 0.0),
+        burst(0.8),
+        {},
+    )
+    yield (
+        STRUCTURES,
+        "floor-heavy",
+        "Equipment of a third of the mass of the floor.",
+        on_floor(0.15, 9.0, 0.02, 0.333),
+        hum(),
+        {},
+    )
+    yield (
+        STRUCTURES,
+        "slope-decoupled",
+        "The average acceleration of a soil column drives Newmark's block.",
+        column(0.1, 1, 20.0, 150.0, 0.1, decoupled=True),
+        burst(),
+        {},
+    )
+    yield (
+        STRUCTURES,
+        "slope-coupled",
+        "A soil column of one mode slides itself, downhill only.",
+        column(0.1, 1, 20.0, 150.0, 0.1),
+        burst(),
+        {},
+    )
 
     # ---- rocking
-    yield ROCKING, "rocking-free", "A slender block is released at half of its critical angle.", rocking(
-        2.0, 0.2, 0.9
-    ), constant(0.0, 3.0), {"start": {"rotation": 0.1}, "uncertain": 1e-11, "closed": released}
-    yield ROCKING, "rocking-record", "Two tones.", rocking(2.0, 0.15, 0.9), hum(0.6, duration=6.0), {"uncertain": 1e-9}
-    yield ROCKING, "rocking-burst", "A burst; it comes to rest.", rocking(1.5, 0.2, 0.85), burst(0.9), {"uncertain": 1e-9}
-    yield ROCKING, "rocking-vertical", "Horizontal and vertical motion.", rocking(2.0, 0.18, 0.88), burst(vertical=3.0), {
-        "uncertain": 1e-9
-    }
-    yield ROCKING, "rocking-stays", "Below the level of uplift: it must not rock.", rocking(2.0, 0.25, 0.9), sine(
-        2.4, 5.0
-    ), {}
-    yield ROCKING, "rocking-stands", "A sine of 10 rad/s, 2.95 times the level of uplift: it stands.", rocking(
-        2.0, 0.2, 0.9
-    ), sine_cycle(2.95), {"uncertain": 1e-9}
-    yield ROCKING, "rocking-falls", "The same with 3.1 times: it falls after one impact.", rocking(2.0, 0.2, 0.9), sine_cycle(
-        3.1
-    ), {}
+    yield (
+        ROCKING,
+        "rocking-free",
+        "A slender block is released at half of its critical angle.",
+        rocking(2.0, 0.2, 0.9),
+        constant(0.0, 3.0),
+        {"start": {"rotation": 0.1}, "uncertain": 1e-11, "closed": released},
+    )
+    yield (
+        ROCKING,
+        "rocking-record",
+        "Two tones.",
+        rocking(2.0, 0.15, 0.9),
+        hum(0.6, duration=6.0),
+        {"uncertain": 1e-9},
+    )
+    yield (
+        ROCKING,
+        "rocking-burst",
+        "A burst; it comes to rest.",
+        rocking(1.5, 0.2, 0.85),
+        burst(0.9),
+        {"uncertain": 1e-9},
+    )
+    yield (
+        ROCKING,
+        "rocking-vertical",
+        "Horizontal and vertical motion.",
+        rocking(2.0, 0.18, 0.88),
+        burst(vertical=3.0),
+        {"uncertain": 1e-9},
+    )
+    yield (
+        ROCKING,
+        "rocking-stays",
+        "Below the level of uplift: it must not rock.",
+        rocking(2.0, 0.25, 0.9),
+        sine(2.4, 5.0),
+        {},
+    )
+    yield (
+        ROCKING,
+        "rocking-stands",
+        "A sine of 10 rad/s, 2.95 times the level of uplift: it stands.",
+        rocking(2.0, 0.2, 0.9),
+        sine_cycle(2.95),
+        {"uncertain": 1e-9},
+    )
+    yield (
+        ROCKING,
+        "rocking-falls",
+        "The same with 3.1 times: it falls after one impact.",
+        rocking(2.0, 0.2, 0.9),
+        sine_cycle(3.1),
+        {},
+    )
 
 
 def sine_cycle(times_uplift):
@@ -368,7 +715,9 @@ def sine_cycle(times_uplift):
 
 def pulse_then_sine():
     t = times(0.02, 20.0)
-    along = np.where(t < 0.5, -3 * np.sin(2 * np.pi * t), 0) + np.where(t > 2, 0.49 * np.sin(8 * t), 0)
+    along = np.where(t < 0.5, -3 * np.sin(2 * np.pi * t), 0) + np.where(
+        t > 2, 0.49 * np.sin(8 * t), 0
+    )
     return {
         "dt": 0.02,
         "formula": "along = -3 sin(2 pi t) for t < 0.5 s, 0.49 sin(8 t) for t > 2 s, 0 between, t = 0, 0.02 s, .., "
@@ -436,7 +785,12 @@ def printed(number) -> str:
     return number.str(20, radius=False)
 
 
-UNITS = {"final_displacement": "m", "peak_displacement": "m", "final_rotation": "rad", "peak_rotation": "rad"}
+UNITS = {
+    "final_displacement": "m",
+    "peak_displacement": "m",
+    "final_rotation": "rad",
+    "peak_rotation": "rad",
+}
 
 
 def make(entry):
@@ -453,7 +807,7 @@ def make(entry):
     try:
         first = independent.answer(problem)
         again = independent.answer(problem, order=30, fineness=2, leave=46)
-    except Exception as error:
+    except Exception:
         import traceback
 
         return f"{name}: {traceback.format_exc()}"
@@ -467,7 +821,9 @@ def make(entry):
     peak = first.get("peak_displacement") or first.get("peak_rotation") or [1.0]
     scale = abs(float(independent.mid(peak[0])))
     start = more.get("start", {})
-    moved = scale > abs(start.get("displacement", [0.0])[0]) or "velocity" in start or group != STICK
+    moved = (
+        scale > abs(start.get("displacement", [0.0])[0]) or "velocity" in start or group != STICK
+    )
     if not moved or scale == 0:
         scale = MILLIMETER
     scale = float(f"{scale:.3g}")
@@ -475,7 +831,9 @@ def make(entry):
         float(abs(independent.mid(a - b))) for q in first for a, b in zip(first[q], again[q])
     )
     uncertain = more.get("uncertain", 1e-12)
-    still = group == STICK and name != "stick-after-slip" or name in ("isolated-stuck", "rocking-stays")
+    still = (
+        (group == STICK and name != "stick-after-slip") or name in ("isolated-stuck", "rocking-stays")
+    )
     answers = {}
     for quantity, values in first.items():
         answers[quantity] = {
@@ -508,10 +866,14 @@ def make(entry):
         lines = []
         for key, value in problem.items():
             if key == "ground":
-                inner = ",\n".join(f"    {json.dumps(k)}: {json.dumps(v)}" for k, v in value.items())
+                inner = ",\n".join(
+                    f"    {json.dumps(k)}: {json.dumps(v)}" for k, v in value.items()
+                )
                 lines.append(f'  "ground": {{\n{inner}\n  }}')
             elif key == "answers":
-                inner = ",\n".join(f"    {json.dumps(k)}: {json.dumps(v)}" for k, v in value.items())
+                inner = ",\n".join(
+                    f"    {json.dumps(k)}: {json.dumps(v)}" for k, v in value.items()
+                )
                 lines.append(f'  "answers": {{\n{inner}\n  }}')
             else:
                 lines.append(f"  {json.dumps(key)}: {json.dumps(value)}")

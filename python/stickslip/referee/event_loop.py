@@ -10,7 +10,7 @@ from .equations import Load, Model, Numbers, State, answers_of, model_of
 from .problems import Answers, Problem
 
 STILL = ("stuck", "held+", "held-", "rest", "over")
-EVENTS = 200_000  # more of them are a loop without an end
+EVENTS = 20_000  # more of them are a loop without an end
 
 
 class Piece(Protocol):

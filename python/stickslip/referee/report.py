@@ -80,7 +80,9 @@ def number(value: float) -> str:
         return "fails"
     if value == 0:
         return "0"
-    return f"{value:.0e}".replace("e-0", "e-").replace("e+0", "e+") if value < 1e-3 else f"{value:.2g}"
+    return (
+        f"{value:.0e}".replace("e-0", "e-").replace("e+0", "e+") if value < 1e-3 else f"{value:.2g}"
+    )
 
 
 def cell(entries: Sequence[Entry], cost: int = -1) -> str:
@@ -116,7 +118,10 @@ def table(found: Found) -> str:
 
 def settings(found: Found) -> str:
     """Median error and time of every setting over all problems that a tool can express."""
-    lines = ["| tool | setting | problems | median error | largest | median time |", "|---" * 6 + "|"]
+    lines = [
+        "| tool | setting | problems | median error | largest | median time |",
+        "|---" * 6 + "|",
+    ]
     for tool, by_class in found.items():
         costs = max((len(entries) for entries in by_class.values()), default=0)
         for cost in range(costs):

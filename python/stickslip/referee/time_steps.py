@@ -69,7 +69,11 @@ def march(
     vx, vy = (*start.get("velocity", ()), 0.0, 0.0)[:2]
     parts = max(1, math.ceil(problem.dt / step - 1e-9))
     body = Body(
-        problem.dt / parts, friction["mu"], problem.kind == "planar", system.get("stops"), (x, y, vx, vy)
+        problem.dt / parts,
+        friction["mu"],
+        problem.kind == "planar",
+        system.get("stops"),
+        (x, y, vx, vy),
     )
     advance = build(body)
     along, across, up = (problem.component(c) for c in ("along", "transverse", "vertical"))

@@ -31,7 +31,9 @@ def build(box: Any, body: Body) -> Advance:
     ground = world.CreateStaticBody(position=(0, 0))
     height = 0.05
     place = (x, y) if body.planar else (x, height)
-    block = world.CreateDynamicBody(position=place, fixedRotation=True, allowSleep=False, bullet=True)
+    block = world.CreateDynamicBody(
+        position=place, fixedRotation=True, allowSleep=False, bullet=True
+    )
     block.linearVelocity = vx, vy
     fixture = block.CreatePolygonFixture(box=(0.5, height), density=10, friction=body.mu)
     fixture.friction = body.mu**2  # Box2D takes the root of the product; the ground has 1

@@ -45,9 +45,7 @@ def build(drake: Any, body: Body) -> Advance:
     )
     surface.AddProperty("material", "relaxation_time", 0.0)
     up = drake.RigidTransform([0, 0, 0])
-    plant.RegisterCollisionGeometry(
-        plant.world_body(), up, drake.HalfSpace(), "ground", surface
-    )
+    plant.RegisterCollisionGeometry(plant.world_body(), up, drake.HalfSpace(), "ground", surface)
     plant.RegisterCollisionGeometry(
         block, drake.RigidTransform([0, 0, 0.05]), drake.Sphere(0.05), "block", surface
     )

@@ -20,7 +20,7 @@ def solve(problem: Problem, cost: int) -> Answers:
 
     if problem.kind == "slider" and problem.system["friction"]["kind"] == "series":
         raise NotExpressibleError("guards that depend on where each element stands")
-    numbers = Numbers(crawl=1e-7 if cost else 1e-5, speed=1e-9)
+    numbers = Numbers(crawl=1e-7 if cost else 1e-5, speed=1e-6)
     symbolic = Numbers(
         number=lambda one: one, value=lambda one: one, exp=hy.exp, sqrt=hy.sqrt, crawl=numbers.crawl
     )
@@ -49,7 +49,6 @@ def solve(problem: Problem, cost: int) -> Answers:
         integrator = hy.taylor_adaptive(
             list(zip(variables, field, strict=True)),
             [0.0] * size,
-            pars=[0.0] * 6,
             t_events=events,
             nt_events=[turning],
             tol=TOLERANCES[cost],
@@ -65,7 +64,8 @@ def solve(problem: Problem, cost: int) -> Answers:
         turned_before = len(turned)
         integrator.time = 0.0
         integrator.state[:] = state
-        integrator.pars[:] = [one for pair in zip(load, rates, strict=True) for one in pair]
+        lines = [one for pair in zip(load, rates, strict=True) for one in pair]
+        integrator.pars[:] = lines[: len(integrator.pars)]
         integrator.reset_cooldowns()
         outcome = integrator.propagate_until(left)[0]
         end = [float(one) for one in integrator.state]

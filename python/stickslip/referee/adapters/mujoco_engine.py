@@ -36,9 +36,7 @@ def solve(problem: Problem, cost: int) -> Answers:
     def build(body: Body) -> Advance:
         soft = f'condim="3" solref="{2.5 * body.step} 1" solimp="0.99 0.9999 0.0001"'
         model = mujoco.MjModel.from_xml_string(
-            MODEL.format(
-                step=body.step, impratio=impratio, noslip=noslip, mu=body.mu, contact=soft
-            )
+            MODEL.format(step=body.step, impratio=impratio, noslip=noslip, mu=body.mu, contact=soft)
         )
         data = mujoco.MjData(model)
         x, y, vx, vy = body.start

@@ -48,7 +48,9 @@ def solve(problem: Problem, cost: int) -> Answers:
             if not system.get("slope_degrees"):
                 return spring_and_slip(ops, problem, steps, yields)
         if friction.get("one_way") or "mu_backward" in friction:
-            raise NotExpressibleError("friction that depends on the direction, with vertical motion")
+            raise NotExpressibleError(
+                "friction that depends on the direction, with vertical motion"
+            )
         return bearing(ops, problem, steps, yields)
     finally:
         ops.wipe()

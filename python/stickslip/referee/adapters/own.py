@@ -21,9 +21,7 @@ def law_of(friction: Any) -> ss.FrictionLaw:
     if kind == "coulomb":
         return ss.Coulomb(mu=friction["mu"], mu_backward=friction.get("mu_backward"))
     if kind == "static_kinetic":
-        return ss.StaticKinetic(
-            mu_static=friction["mu_static"], mu_kinetic=friction["mu_kinetic"]
-        )
+        return ss.StaticKinetic(mu_static=friction["mu_static"], mu_kinetic=friction["mu_kinetic"])
     if kind == "velocity":
         return ss.VelocityDependent(
             mu_slow=friction["mu_slow"], mu_fast=friction["mu_fast"], rate=friction["rate"]
@@ -101,7 +99,6 @@ def system_of(problem: Problem) -> ss.IsolatedStructure | ss.EquipmentOnFloor | 
     return ss.IsolatedStructure(slider_of(system), modes)
 
 
-
 def solve(problem: Problem, cost: int) -> Answers:
     system, start = problem.system, problem.start
     quake = motion_of(problem)
@@ -131,13 +128,9 @@ def solve(problem: Problem, cost: int) -> Answers:
             velocity=start.get("velocity", [0.0, 0.0]),
         )
         return {"final_displacement": np.ravel(r.residual).tolist(), "peak_displacement": [r.peak]}
-    place = {
-        name: start[name][0] for name in ("displacement", "velocity") if name in start
-    }
+    place = {name: start[name][0] for name in ("displacement", "velocity") if name in start}
     if problem.kind == "slider":
-        s = ss.integrate(
-            slider_of(system), quake, contact=system.get("contact", "flight"), **place
-        )
+        s = ss.integrate(slider_of(system), quake, contact=system.get("contact", "flight"), **place)
         return {"final_displacement": [s.residual], "peak_displacement": [s.peak]}
     if problem.kind in ("isolated", "floor"):
         structure: Any = system_of(problem)

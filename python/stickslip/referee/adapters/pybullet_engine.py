@@ -42,7 +42,10 @@ def build(bullet: Any, body: Body) -> Advance:
         0, bullet.createCollisionShape(bullet.GEOM_BOX, halfExtents=[20, 20, 1]), -1, [0, 0, -1]
     )
     block = bullet.createMultiBody(
-        1, bullet.createCollisionShape(bullet.GEOM_BOX, halfExtents=[0.5, 0.5, 0.05]), -1, [0, 0, 0.05]
+        1,
+        bullet.createCollisionShape(bullet.GEOM_BOX, halfExtents=[0.5, 0.5, 0.05]),
+        -1,
+        [0, 0, 0.05],
     )
     x, y, vx, vy = body.start
     bullet.resetBasePositionAndOrientation(block, [x, y, 0.05], [0, 0, 0, 1])
