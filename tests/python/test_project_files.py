@@ -107,8 +107,10 @@ def test_the_paper_has_its_sections_and_a_length_that_the_journal_takes():
         "Summary",
         "Statement of need",
         "State of the field",
-        "Method",
+        "Software design",
         "Accuracy",
+        "Research impact statement",
+        "AI usage disclosure",
         "References",
     ]
     assert 250 < len(body.split()) < 1750
