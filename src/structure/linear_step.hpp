@@ -29,7 +29,7 @@ class LinearStep {
   using Index = Eigen::Index;
   static constexpr Index most_modes = 200;  ///< a map of sliding has 1.3 MB
 
-  /// Whether its computation, which takes as long as some hundred steps by series, is worth while for a number of steps.
+  /// Whether its computation, as long as that of some hundred steps by series, is worth while for a number of steps.
   static bool pays(const ModalInterface& of, double step, bool sliding, bool floors, std::size_t steps);
 
   /// @param rows  null: floors are not watched

@@ -449,8 +449,8 @@ def test_a_loop_of_ones_own() -> None:
                     vertical_start=rises[i],
                     vertical_end=rises[i + 1],
                 )
-                assert state.displacement == r.displacement[i + 1]
-            assert state == r.state
+                assert abs(state.displacement - r.displacement[i + 1]) <= 1e-12 * r.sliding_distance
+            assert abs(state.velocity - r.state.velocity) <= 1e-11 * np.abs(r.velocity).max()
             assert pickle.loads(pickle.dumps(state)) == state
             x, v = ss.histories(system, motion)
             assert (x == r.displacement).all() and (v == r.velocity).all()
