@@ -33,13 +33,15 @@ inline RigidImpact corner_impact(const RockingBlock& block, const RigidVelocity&
                                  const Arm& r) noexcept {
   const double square = block.gyration_square(), mu = block.mu();
   const double across = v.x + v.w * r.y, down = v.y - v.w * r.x;  // of the corner
+  if (!(down < 0))                                                // by round-off: it does not press
+    return {v, side, !(mu < never) || equal(across, 0) ? 0 : across > 0 ? 1 : -1};
   const double nn = 1 + r.x * r.x / square, nt = -r.x * r.y / square, tt = 1 + r.y * r.y / square;
   const auto after = [&](double t, double n) {
     return RigidVelocity{v.x + t, v.y + n, v.w + (r.y * t - r.x * n) / square};
   };
   const double determinant = nn + tt - 1;  // nn tt - nt^2
   const double t = (nt * down - nn * across) / determinant, n = (nt * across - tt * down) / determinant;
-  if (std::abs(t) <= mu * n) return {after(t, n), side, 0};
+  if (!(mu < never) || std::abs(t) <= mu * n) return {after(t, n), side, 0};
   RigidImpact found{v, side, 0, false, false};
   for (const int s : {t > 0 ? -1 : 1, t > 0 ? 1 : -1}) {
     const double weight = nn - s * mu * nt, push = -down / weight;
@@ -63,7 +65,7 @@ inline RigidImpact base_impact(const RockingBlock& block, const RigidVelocity& v
       const double square = block.gyration_square(), at = lever * ahead;
       const double w = (square * v.w + h * v.x + at * v.y) / (square + h * h + at * ahead);
       const RigidVelocity after{h * w, ahead * w, w};
-      if (side * w > 0 && std::abs(after.x - v.x) <= block.mu() * (after.y - v.y) &&
+      if (side * w > 0 && (!(block.mu() < never) || std::abs(after.x - v.x) <= block.mu() * (after.y - v.y)) &&
           kinetic_energy(block, after) <= kinetic_energy(block, v))
         return {after, side, 0, true};
     }
@@ -71,7 +73,8 @@ inline RigidImpact base_impact(const RockingBlock& block, const RigidVelocity& v
     if (one.consistent && side * one.after.w > 0) return one;
   }
   const double push = -v.y;
-  const double x = std::abs(v.x) <= block.mu() * push ? 0 : v.x - std::copysign(block.mu() * push, v.x);
+  const double x =
+      !(block.mu() < never) || std::abs(v.x) <= block.mu() * push ? 0 : v.x - std::copysign(block.mu() * push, v.x);
   return {{x, 0, 0}, 0, x > 0 ? 1 : x < 0 ? -1 : 0};
 }
 

@@ -48,7 +48,8 @@ struct RigidStart {
   bool smooth =
       false;  // what decides the event is continuous: the corner that starts to slip has no acceleration yet, nor
               // does what lifts off
-  double lifts = 0;  // the corner that leaves the ground, +1 or -1; 2: both
+  bool held = false;  // a corner that never slips is held by tension
+  double lifts = 0;   // the corner that leaves the ground, +1 or -1; 2: both
 };
 
 /// A leg of a rigid block, about the start: theta and the displacement of what touches the ground (in flight that of the
@@ -64,7 +65,7 @@ class RigidLeg {
     double displacement, velocity;
     double rise, climb;
   };
-  enum class Event { none, overturns, lands, sticks, slips_back, slips_ahead, lifts, paradox };
+  enum class Event { none, overturns, lands, sticks, slips_back, slips_ahead, lifts, lets_go, paradox };
   struct Next {
     double time = never;
     Event event = Event::none;
@@ -129,12 +130,15 @@ class RigidLeg {
   Next next() const {
     Next first;
     double w[series::highest_order + 1];
-    const auto look = [&](Event event, int degree) {
+    const auto root = [&](int degree) {
       int leading = 0;
       while (leading <= degree && equal(w[leading], 0)) ++leading;
-      if (leading > degree) return;
+      if (leading > degree) return never;
       const double part = w[leading] < 0 ? 0 : FirstRoot(w + leading, degree - leading).find();
-      if (part < never && part * duration_ < first.time) first = {part * duration_, event};
+      return part < never ? part * duration_ : never;
+    };
+    const auto look = [&](Event event, int degree) {
+      if (const double time = root(degree); time < first.time) first = {time, event};
     };
     if (turns_) {
       const int degree = order_ + 1;
@@ -196,9 +200,9 @@ class RigidLeg {
           if (w[0] < 8 * round_off * largest) w[0] = 0;  // it has just been found to stick
           look(to < 0 ? Event::slips_back : Event::slips_ahead, degree);
         }
-      } else {
+      } else if (push[0] > 0 && !how_.held) {
         for (int k = 0; k <= degree; ++k) w[k] = push[k];
-        look(Event::lifts, degree);
+        look(Event::lets_go, degree);
       }
     }
     return first;

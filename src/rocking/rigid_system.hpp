@@ -206,11 +206,15 @@ class RigidSystem {
         watch(arm(block_, state_), state_.slip);
         sink.happens(RockingEventKind::slip, now_, state_, sign(state_.mode), 0, state_.rate);
         break;
+      case Event::lets_go:
+        how_.held = ground_.heavy(now_) + state_.rate * state_.rate * arm(block_, state_).y > 0;
+        if (how_.held) break;
+        [[fallthrough]];
       case Event::lifts: {
         const double side = state_.mode == RockingMode::slide ? 2 : sign(state_.mode);
         fly();
         how_.lifts = side;
-        how_.smooth = true;
+        how_.smooth = slide.next.event == Event::lifts;
         sink.happens(RockingEventKind::liftoff, now_, state_, on_side(side), 0, state_.rate);
         break;
       }
@@ -323,7 +327,7 @@ class RigidSystem {
       state_.velocity = 0;
       const double turn = (r.y * n - r.x * heavy) / (square + r.x * r.x + r.y * r.y);
       const double push = heavy + turn * r.x + w * w * r.y, across = n - turn * r.y + w * w * r.x;
-      if (push > 0 && std::abs(across) <= mu * push) return;
+      if (mu < never ? push > 0 && std::abs(across) <= mu * push : push > 0 || known > 0) return;
       if (mu < never)
         for (const int s : {across > 0 ? -1 : 1, across > 0 ? 1 : -1}) {
           const double weight = slip_denominator(block_, r, s), normal = known / weight, drag = -s * mu * normal;

@@ -12,7 +12,8 @@ namespace stickslip {
 struct RockingBlockSize {
   double width;   ///< of the base [m], positive
   double height;  ///< of the block [m], positive
-  /// Coulomb's coefficient of friction at the base and its corners, at least 0. Without one it never slips.
+  /// Coulomb's coefficient of friction at the base and its corners, at least 0. Without one it never slips; where
+  /// that would take tension, and the corner would not leave by itself, it is held.
   std::optional<double> mu{};
   /// Rate after an impact of the base over that before it, from 0 to 1. Without one that of the impact law, Housner's for a
   /// block that does not slip.
