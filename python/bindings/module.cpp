@@ -65,6 +65,7 @@ PYBIND11_MODULE(_core, m) {
   bind_structure_advance(m);
   bind_structure_response(m);
   bind_slender_block(m);
+  bind_rocking_block(m);
   bind_rocking_advance(m);
   bind_rocking_response(m);
   bind_histories(m);

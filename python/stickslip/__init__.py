@@ -63,6 +63,7 @@ from ._core import (
     Rayleigh,
     Response,
     ResponseSpectrum,
+    RockingBlock,
     RockingEnergy,
     RockingResponse,
     RockingState,
@@ -111,6 +112,8 @@ if TYPE_CHECKING:
     from .motions.samples import sample_record, sample_records
     from .motions.spectra import response_spectrum
     from .motions.suite import Suite
+    from .risk.asce43 import ASCE43Estimate, asce43
+    from .risk.asce43_rocking import ASCE43RockingEstimate, asce43_rocking
     from .risk.design_chart import DesignChart, design_chart
     from .risk.efficiency import IntensityEfficiency, intensity_efficiency
     from .risk.fragility import Fragility
@@ -134,6 +137,7 @@ if TYPE_CHECKING:
 __all__ = [
     "STANDARD_GRAVITY",
     "ASCE43Estimate",
+    "ASCE43RockingEstimate",
     "Caster",
     "Comparison",
     "ConvergenceError",
@@ -186,6 +190,7 @@ __all__ = [
     "Rayleigh",
     "Response",
     "ResponseSpectrum",
+    "RockingBlock",
     "RockingEnergy",
     "RockingEnsemble",
     "RockingResponse",
@@ -222,6 +227,7 @@ __all__ = [
     "__version__",
     "advance",
     "asce43",
+    "asce43_rocking",
     "build_info",
     "compare",
     "critical_scales",
@@ -286,6 +292,7 @@ if not TYPE_CHECKING:
             "sweep",
         ),
         "risk.asce43": ("ASCE43Estimate", "asce43"),
+        "risk.asce43_rocking": ("ASCE43RockingEstimate", "asce43_rocking"),
         "risk.yield_acceleration": ("yield_acceleration",),
         "rocking": ("RockingEnsemble", "RockingTable"),
     }

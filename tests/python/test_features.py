@@ -299,6 +299,7 @@ SYSTEMS = {
         QUAKE,
     ),
     "`SlenderBlock`": (ss.SlenderBlock(p=3, alpha=0.1, restitution=0.9), QUAKE),
+    "`RockingBlock`": (ss.RockingBlock(width=0.2, height=2, mu=0.3), QUAKE),
 }
 NOT_OF_SYSTEMS = {
     "no": r"on one axis, got a PlanarSlider|sliders must be a Slider, a friction law|no attribute"
@@ -446,7 +447,7 @@ def test_every_theory_of_a_row_is_as_the_table_says(name):
 
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_every_analysis_of_a_system_is_as_the_table_says(name, tmp_path):
-    kind = RockingCells if name == "`SlenderBlock`" else SystemCells
+    kind = RockingCells if name in ("`SlenderBlock`", "`RockingBlock`") else SystemCells
     cells = kind(*SYSTEMS[name], tmp_path)
     found = {column: cell(getattr(cells, column), NOT_OF_SYSTEMS) for column in COLUMNS}
     assert found == table("Systems")[name]

@@ -329,7 +329,10 @@ def test_what_cannot_slide_in_the_plane_is_refused():
         ss.integrate(SLIDERS["coulomb"], ss.HarmonicMotion(1, 2, duration=10))
     with pytest.raises(TypeError, match="law must be a friction law"):
         ss.PlanarSlider(3)
-    others = "an IsolatedStructure, an EquipmentOnFloor, a FlexibleSlope or a SlenderBlock"
+    others = (
+        "an IsolatedStructure, an EquipmentOnFloor, a FlexibleSlope, a SlenderBlock"
+        " or a RockingBlock"
+    )
     with pytest.raises(
         TypeError, match=rf"slider must be a Slider.*, a PlanarSlider, {others}, got 0\.3$"
     ):

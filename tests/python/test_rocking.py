@@ -224,7 +224,7 @@ def test_a_sweep_names_what_fails():
         ss.sweep(BLOCK, QUAKE, scale=[-1])
     with pytest.raises(ValueError, match="scale is for blocks"):
         ss.sweep(ss.Coulomb(mu=0.2), QUAKE, scale=[1])
-    with pytest.raises(TypeError, match=r"sliders\[1\] is of type Coulomb"):
+    with pytest.raises(TypeError, match=r"number 1 is of type Coulomb"):
         ss.sweep([BLOCK, ss.Coulomb(mu=0.1)], QUAKE)
 
 

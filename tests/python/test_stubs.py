@@ -105,6 +105,11 @@ chance: ss.Interval = ss.run_ensemble(cabinet, quake, members=2, seed=1).overtur
 chances: list[ss.Interval] = ss.run_ensemble(cabinet, quake, members=2, seed=1).overturning([1])
 ss.rocking_spectrum(quake, alpha=0.2, periods=[1, 2]).plot()
 ss.grid(ss.SlenderBlock, p=[1, 2], alpha=0.2, restitution="housner")[0].p
+rigid = ss.RockingBlock(width=0.6, height=2, mu=0.5, center=(0.05, 0.8), restitution=0.9)
+walked: NDArray[np.float64] = ss.integrate(rigid, quake, settle=True).displacement
+slid: NDArray[np.float64] = ss.sweep([rigid], quake, scale=[1, 2]).residual
+rough: float | None = rigid.mu
+ss.advance(rigid, ss.RockingState(0.1), 0.01, 1).slips
 far = max(r.peak, r.residual, r.sliding_distance, r.time_sliding)
 same: bool = block == wheel or hash(block) == hash(cart)
 words: dict[str, str] = ss.build_info()

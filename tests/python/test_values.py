@@ -75,7 +75,13 @@ ROCKS = [
     ss.SlenderBlock(p=2, alpha=0.01, restitution=0.9),
     ss.SlenderBlock(p=2, alpha=0.01, alpha_left=0.02, restitution=0.9),
 ]
-ROCKED = [ss.integrate(block, EVEN) for block in ROCKS]
+RIGID = [
+    ss.RockingBlock(width=0.02, height=2),
+    ss.RockingBlock(width=0.02, height=2, mu=0.3),
+    ss.RockingBlock(width=0.02, height=2, mu=0.3, restitution=0.9, center=(0.001, 0.8)),
+    ss.RockingBlock(width=0.02, height=2, mu=0.3, lever=0.9, gyration_radius=0.5),
+]
+ROCKED = [ss.integrate(block, EVEN) for block in (*ROCKS, *RIGID)]
 
 # Of each class, objects that differ.
 EXAMPLES = {
@@ -297,6 +303,9 @@ EXAMPLES = {
         ss.WithTransverse(ss.WithVertical(PULSES)),
     ],
     ss.ASCE43Estimate: [ss.asce43(mu=mu, motion=EVEN) for mu in (0.05, 0.1)],
+    ss.ASCE43RockingEstimate: [
+        ss.asce43_rocking(ss.SlenderBlock(p=2, alpha=a, restitution=0.9), EVEN) for a in (0.1, 0.2)
+    ],
     ss.DesignChart: [
         ss.design_chart(ss.Suite([ss.sample_record("Kobe")]), [0.1, 0.2], pga_g=[level])
         for level in (0.4, 0.6)
@@ -319,10 +328,11 @@ EXAMPLES = {
     ss.Sensitivity: [RESPONSES[0].sensitivity(name) for name in ("mu", "damping", "scale")],
     ss.Response: RESPONSES,
     ss.SlenderBlock: ROCKS,
+    ss.RockingBlock: RIGID,
     ss.RockingState: [ss.RockingState(), ss.RockingState(0.1), ss.RockingState(0, 0.1)],
     ss.RockingResponse: ROCKED,
-    ss.RockingEnergy: [r.energy for r in ROCKED],
-    ss.RockingTable: [ss.sweep(block, EVEN) for block in ROCKS],
+    ss.RockingEnergy: [r.energy for r in ROCKED[:3]],
+    ss.RockingTable: [ss.sweep(block, EVEN) for block in (*ROCKS, *RIGID)],
     ss.RockingEnsemble: [ss.run_ensemble(ROCKS[0], EVEN, members=n, seed=1) for n in (1, 2)],
     ss.RockingSpectrum: [ss.rocking_spectrum(EVEN, alpha=a, periods=[2]) for a in (0.01, 0.02)],
     ss.ResponseSpectrum: [

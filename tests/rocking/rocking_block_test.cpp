@@ -43,7 +43,7 @@ GroundMotion reference_motion(const Value& row) {
 RockingBlock reference_block(const Value& row) {
   const double b = row["b"], h = row["h"], left = row.number("b_left", b);
   RockingBlockSize size{.width = b + left, .height = 2 * h, .mu = row["mu"]};
-  size.center = {(left - b) / 2, h};
+  size.center.emplace((left - b) / 2, h);
   size.gyration_radius = std::sqrt((b * b + h * h) / 3);
   if (row.has("lever")) size.lever = row["lever"];
   return RockingBlock(size);

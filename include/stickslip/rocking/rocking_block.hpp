@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "stickslip/base/requirements.hpp"
 
@@ -22,7 +23,7 @@ struct RockingBlockSize {
   /// the block goes on; 1 is Housner's impact, 0 loses nothing.
   std::optional<double> lever{};
   /// Of mass: its distance to the right of the middle of the base, and its height [m]. Without one that of a uniform block.
-  std::optional<std::array<double, 2>> center{};
+  std::optional<std::pair<double, double>> center{};
   /// About the center of mass [m], positive. Without one sqrt((width^2 + height^2)/12), that of a uniform block.
   std::optional<double> gyration_radius{};
 

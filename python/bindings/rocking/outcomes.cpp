@@ -13,10 +13,8 @@
 namespace stickslip::python {
 namespace {
 
-using Blocks = std::vector<SlenderBlock>;
-
 // Arrays by name, of shape (runs,), and the failures: (run, message).
-py::dict columns_of(const std::vector<RockingOutcome>& outcomes) {
+py::dict columns_of(const std::vector<RockingOutcome>& outcomes, bool rigid) {
   const auto column = [&](auto member) {
     std::vector<std::remove_cvref_t<decltype(std::declval<RockingOutcome>().*member)>> values;
     values.reserve(outcomes.size());
@@ -31,6 +29,10 @@ py::dict columns_of(const std::vector<RockingOutcome>& outcomes) {
   result["impacts"] = array_of(column(&RockingOutcome::impacts)).attr("astype")("int64");
   result["margin"] = array_of(column(&RockingOutcome::margin));
   result["condition"] = array_of(column(&RockingOutcome::condition));
+  if (rigid) {
+    result["residual"] = array_of(column(&RockingOutcome::residual));
+    result["sliding_distance"] = array_of(column(&RockingOutcome::sliding_distance));
+  }
   py::list failures;
   for (std::size_t i = 0; i < outcomes.size(); ++i)
     if (!outcomes[i].failure.empty()) failures.append(py::make_tuple(i, outcomes[i].failure));
@@ -53,7 +55,8 @@ RockingRunOptions options_of(bool settle, unsigned threads, const py::object& pr
   return options;
 }
 
-py::dict sweep_blocks(const Blocks& blocks, const std::vector<const GroundMotion*>& motions,
+template <class Block>
+py::dict sweep_blocks(const std::vector<Block>& blocks, const std::vector<const GroundMotion*>& motions,
                       const std::vector<double>& scales, bool settle, unsigned threads, const py::object& progress) {
   std::atomic<bool> ended = false;
   const RockingRunOptions options = options_of(settle, threads, progress, ended);
@@ -62,15 +65,17 @@ py::dict sweep_blocks(const Blocks& blocks, const std::vector<const GroundMotion
     const py::gil_scoped_release released;
     return rocking_outcomes(
         blocks.size() * records * factors,
-        [&](std::size_t i) -> const SlenderBlock& { return blocks[i / (records * factors)]; },
+        [&](std::size_t i) -> const Block& { return blocks[i / (records * factors)]; },
         [&](std::size_t i, const auto& use) { use(motions[i / factors % records]->scaled(scales[i % factors])); },
         options);
   }();
-  return columns_of(outcomes);
+  return columns_of(outcomes, std::same_as<Block, RockingBlock>);
 }
 
-py::dict run_blocks(const Blocks& blocks, const py::object& motions, std::uint64_t members, std::uint64_t first_member,
-                    std::uint64_t seed, bool settle, unsigned threads, const py::object& progress) {
+template <class Block>
+py::dict run_blocks(const std::vector<Block>& blocks, const py::object& motions, std::uint64_t members,
+                    std::uint64_t first_member, std::uint64_t seed, bool settle, unsigned threads,
+                    const py::object& progress) {
   std::atomic<bool> ended = false;
   const RockingRunOptions options = options_of(settle, threads, progress, ended);
   const Motions source(motions, ended);
@@ -78,7 +83,7 @@ py::dict run_blocks(const Blocks& blocks, const py::object& motions, std::uint64
   const auto outcomes = [&] {
     const py::gil_scoped_release released;
     return rocking_outcomes(
-        members, [&](std::size_t i) -> const SlenderBlock& { return blocks[i % blocks.size()]; },
+        members, [&](std::size_t i) -> const Block& { return blocks[i % blocks.size()]; },
         [&](std::size_t i, const auto& use) {
           const MadeOrListed made = source.sample(seed, first_member + i);
           const GroundMotion& motion = made;
@@ -86,45 +91,52 @@ py::dict run_blocks(const Blocks& blocks, const py::object& motions, std::uint64
         },
         options);
   }();
-  py::dict result = columns_of(outcomes);
+  py::dict result = columns_of(outcomes, std::same_as<Block, RockingBlock>);
   result["configuration"] = source.configuration();
   result["duration"] = base ? py::object(py::float_(base->duration)) : py::object(py::none());
   return result;
 }
 
-}  // namespace
+template <class Block>
+py::object scales_of(const Block& block, const GroundMotion& motion, double up_to, std::size_t steps) {
+  const auto ranges = [&] {
+    const py::gil_scoped_release released;
+    return critical_scales(block, motion, up_to, steps, check_for_interrupt);
+  }();
+  std::vector<double> bounds;
+  for (const ScaleRange& range : ranges) bounds.insert(bounds.end(), {range.begin, range.end});
+  return array_of(std::move(bounds)).attr("reshape")(ranges.size(), 2);
+}
 
-void bind_rocking_outcomes(py::module_& m) {
-  m.def("sweep_blocks", &sweep_blocks, py::arg("blocks"), py::arg("motions"), py::kw_only(), py::arg("scales"),
+template <class Block>
+void bind_runs(py::module_& m) {
+  m.def("sweep_blocks", &sweep_blocks<Block>, py::arg("blocks"), py::arg("motions"), py::kw_only(), py::arg("scales"),
         py::arg("settle"), py::arg("threads"), py::arg("progress"),
         R"(Implementation of `stickslip.sweep` with blocks (see there).
 
 Arrays by name, of shape (blocks * records * scales,), and `failures`, tuples of a place there and a message.)");
-  m.def("run_blocks", &run_blocks, py::arg("blocks"), py::arg("motions"), py::kw_only(), py::arg("members"),
+  m.def("run_blocks", &run_blocks<Block>, py::arg("blocks"), py::arg("motions"), py::kw_only(), py::arg("members"),
         py::arg("first_member"), py::arg("seed"), py::arg("settle"), py::arg("threads"), py::arg("progress"),
         R"(Implementation of `stickslip.run_ensemble` with blocks (see there).
 
 As `sweep_blocks`, of shape (members,), with the `configuration` of the motions and their `duration`, or None.)");
-  m.def(
-      "critical_scales",
-      [](const SlenderBlock& block, const GroundMotion& motion, double up_to, std::size_t steps) {
-        const auto ranges = [&] {
-          const py::gil_scoped_release released;
-          return critical_scales(block, motion, up_to, steps, check_for_interrupt);
-        }();
-        std::vector<double> bounds;
-        for (const ScaleRange& range : ranges) bounds.insert(bounds.end(), {range.begin, range.end});
-        return array_of(std::move(bounds)).attr("reshape")(ranges.size(), 2);
-      },
-      py::arg("block"), py::arg("motion"), py::kw_only(), py::arg("up_to"), py::arg("steps") = 400,
-      R"(The scales of a ground motion at which a block overturns.
+}
+
+}  // namespace
+
+void bind_rocking_outcomes(py::module_& m) {
+  bind_runs<SlenderBlock>(m);
+  bind_runs<RockingBlock>(m);
+  m.def("critical_scales", &scales_of<SlenderBlock>, py::arg("block"), py::arg("motion"), py::kw_only(),
+        py::arg("up_to"), py::arg("steps") = 400,
+        R"(The scales of a ground motion at which a block overturns.
 
 A set of ranges: a block may stand at a larger scale than one at which it overturns (islands of safety). The lowest critical
 scale is ``critical_scales(...)[0, 0]``.
 
 Parameters
 ----------
-block : SlenderBlock
+block : SlenderBlock or RockingBlock
 motion : GroundMotion
     All its components are multiplied by the scale.
 up_to : float
@@ -145,6 +157,8 @@ ValueError
     up_to or steps out of range; a vertical motion with g + a_z <= 0 at a scale.
 ConvergenceError
     A restitution of 1, with which the block never comes to rest.)");
+  m.def("critical_scales", &scales_of<RockingBlock>, py::arg("block"), py::arg("motion"), py::kw_only(),
+        py::arg("up_to"), py::arg("steps") = 400);
   m.def(
       "_binomial_interval",
       [](std::uint64_t count, std::uint64_t trials, double confidence) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string_view>
 
 #include "in_python.hpp"
@@ -15,7 +16,7 @@ namespace {
 
 using Self = RockingResponseWithInputs;
 
-const SlenderBlock& block_of(const Self& self) { return self.block.cast<const SlenderBlock&>(); }
+bool is_rigid(const Self& self) { return py::isinstance<RockingBlock>(self.block); }
 const GroundMotion& motion_of(const Self& self) { return self.motion.cast<const GroundMotion&>(); }
 
 std::u32string_view name_of(RockingEventKind kind) {
@@ -24,6 +25,14 @@ std::u32string_view name_of(RockingEventKind kind) {
       return U"uplift";
     case RockingEventKind::impact:
       return U"impact";
+    case RockingEventKind::slip:
+      return U"slip";
+    case RockingEventKind::stick:
+      return U"stick";
+    case RockingEventKind::liftoff:
+      return U"liftoff";
+    case RockingEventKind::landing:
+      return U"landing";
     case RockingEventKind::rest:
       return U"rest";
     case RockingEventKind::overturned:
@@ -38,17 +47,20 @@ py::array events_array(const std::vector<RockingEvent>& events) {
   struct Row {
     double time, rotation, rate;
     char32_t kind[10];
+    double rate_after, displacement, speed;
+    std::int64_t side;
   };
   py::dict layout;
-  layout["names"] = py::make_tuple("time", "rotation", "rate", "kind");
-  layout["formats"] = py::make_tuple("f8", "f8", "f8", "U10");
+  layout["names"] = py::make_tuple("time", "rotation", "rate", "kind", "rate_after", "displacement", "speed", "side");
+  layout["formats"] = py::make_tuple("f8", "f8", "f8", "U10", "f8", "f8", "f8", "i8");
   layout["offsets"] =
-      py::make_tuple(offsetof(Row, time), offsetof(Row, rotation), offsetof(Row, rate), offsetof(Row, kind));
+      py::make_tuple(offsetof(Row, time), offsetof(Row, rotation), offsetof(Row, rate), offsetof(Row, kind),
+                     offsetof(Row, rate_after), offsetof(Row, displacement), offsetof(Row, speed), offsetof(Row, side));
   layout["itemsize"] = sizeof(Row);
   py::array rows(py::dtype::from_args(layout), static_cast<py::ssize_t>(events.size()));
   auto* row = static_cast<Row*>(rows.mutable_data());
   for (const RockingEvent& e : events) {
-    *row = {e.time, e.rotation, e.rate, {}};
+    *row = {e.time, e.rotation, e.rate, {}, e.rate_after, e.displacement, e.speed, e.side};
     std::ranges::copy(name_of(e.kind), row->kind);
     ++row;
   }
@@ -59,18 +71,37 @@ template <auto member>
 auto history() {
   return [](const py::object& self) { return view(self.cast<const Self&>().response.*member, self); };
 }
+/// Zeros of a SlenderBlock, which stays where it is.
+template <auto member>
+auto history_or_zeros() {
+  return [](const py::object& self) -> py::object {
+    const auto& r = self.cast<const Self&>();
+    if (is_rigid(r)) return view(r.response.*member, self);
+    return array_of(std::vector<double>(r.response.rotation.size(), 0.0));
+  };
+}
 template <auto member>
 auto number() {
   return [](const Self& self) { return self.response.*member; };
 }
 
-// At rest under the motion: the largest load over the level of uplift.
-double load_ratio(const SlenderBlock& block, const GroundMotion& motion) {
+// At rest under the motion: the largest load over the level of uplift, or of slip.
+double load_ratio(const Self& self) {
+  double right, left;
+  if (is_rigid(self)) {
+    const auto& block = self.block.cast<const RockingBlock&>();
+    right = std::min(block.right() / block.center_height(), block.mu());
+    left = std::min(block.left() / block.center_height(), block.mu());
+  } else {
+    const auto& block = self.block.cast<const SlenderBlock&>();
+    right = block.alpha_right(), left = block.alpha_left();
+  }
+  const GroundMotion& motion = motion_of(self);
   double largest = 0;
   for (std::size_t i = 0; i < motion.samples(); ++i) {
     const double n = motion.acceleration()[i];
     const double heavy = standard_gravity + (motion.has_vertical() ? motion.vertical()[i] : 0.0);
-    largest = std::max(largest, std::max(-n / block.alpha_right(), n / block.alpha_left()) / heavy);
+    largest = std::max(largest, std::max(-n / right, n / left) / heavy);
   }
   return largest;
 }
@@ -83,18 +114,23 @@ std::string remark_of(const Self& self) {
   if (r.overturned != 0)
     return "whether a block overturns is not monotone in the scale of a record: it may stand at larger scales and "
            "overturn at smaller ones; see critical_scales";
+  if (r.impacts_with_slip > 0)
+    return "in " + std::to_string(r.impacts_with_slip) +
+           " impacts the corner slipped, so that the given restitution could not hold; they are those of a plastic "
+           "impact";
   const double peak = motion_of(self).peak_acceleration();
-  if (r.time_rocking > 0 || !(peak > 0 && peak <= most_g)) return "";
-  const double load = load_ratio(block_of(self), motion_of(self));
+  if (r.time_rocking > 0 || r.time_sliding > 0 || !(peak > 0 && peak <= most_g)) return "";
+  const double load = load_ratio(self);
   if (load >= 1 || load * standard_gravity <= 1) return "";
-  return "the block never rocks: the peak ground acceleration is " + digits(peak) + " m/s^2 (" +
+  return "the block never moves: the peak ground acceleration is " + digits(peak) + " m/s^2 (" +
          digits(peak / standard_gravity) + " g); if the accelerations are in g, give units=\"g\": at " + digits(peak) +
-         " g it rocks";
+         " g it does";
 }
 
-Self integrate_block(const SlenderBlock& block, const py::object& motion, double rotation, double rate, bool settle) {
+template <class Block>
+Self integrate_block(const Block& block, const py::object& motion, double rotation, double rate, bool settle) {
   if (!py::isinstance<GroundMotion>(motion))
-    throw py::type_error("integrate: the motion of a SlenderBlock must be a GroundMotion, got " +
+    throw py::type_error("integrate: the motion of a block that rocks must be a GroundMotion, got " +
                          py::type::of(motion).attr("__name__").cast<std::string>() +
                          (py::isinstance<HarmonicMotion>(motion) ? "; give motion.sampled(dt)" : ""));
   const auto& ground = motion.cast<const GroundMotion&>();
@@ -116,34 +152,42 @@ auto picture(const char* function) {
 void bind_rocking_response(py::module_& m) {
   const auto energy = [](auto member) { return [=](const RockingEnergy& e) { return e.energy.*member; }; };
   value_class<RockingEnergy>(m, "RockingEnergy",
-                             R"(Energy balance of a block that rocks, over its moment of inertia about a corner [1/s^2].
+                             R"(Energy balance of a block that rocks.
 
-initial + input = impact + fall + kinetic + potential, to round-off.)")
+initial + input = friction + impact + fall + kinetic + potential, to round-off: of a `SlenderBlock` over its moment of
+inertia about a corner [1/s^2], of a `RockingBlock` over its mass [m^2/s^2].)")
       .def_property_readonly("initial", energy(&Energy::initial), "Kinetic and potential energy at the start.")
       .def_property_readonly("input", energy(&Energy::input),
-                             "Work of the ground, the integral of -p^2 (n + a_z (s alpha - theta))/g theta' dt.")
-      .def_property_readonly("impact", energy(&Energy::impact),
-                             "Lost in impacts of the base, the sum of (1 - restitution^2) theta'^2 / 2.")
-      .def_property_readonly("fall", energy(&Energy::dissipated),
-                             "Kinetic energy with which a block lands on its side.")
-      .def_property_readonly("kinetic", energy(&Energy::kinetic), "theta'^2 / 2 at the end.")
+                             R"(Work of the ground.
+
+The integral of -p^2 (n + a_z (s alpha - theta))/g theta' dt, or of -(n X' + a_z Y') dt.)")
+      .def_property_readonly("friction", energy(&Energy::dissipated),
+                             "Work against friction while the base or a corner slips; 0 of a `SlenderBlock`.")
+      .def_property_readonly(
+          "impact", energy(&Energy::impact),
+          "Lost in impacts of the base, the sum of (1 - restitution^2) theta'^2 / 2, and in landings.")
+      .def_property_readonly("fall", energy(&Energy::damped), "Kinetic energy with which a block lands on its side.")
+      .def_property_readonly("kinetic", energy(&Energy::kinetic), "At the end, of a `SlenderBlock` theta'^2 / 2.")
       .def_property_readonly("potential", energy(&Energy::elastic),
-                             "p^2 |theta| (alpha - |theta|/2) at the end: of the weight.")
+                             "Of the weight at the end: p^2 |theta| (alpha - |theta|/2), or g times the rise.")
       .def_property_readonly(
           "imbalance", [](const RockingEnergy& e) { return e.energy.imbalance(); },
           "Residual of the energy balance (round-off).")
       .def("__repr__", [](const RockingEnergy& e) {
-        return "<RockingEnergy [1/s^2]: initial " + digits(e.energy.initial) + ", input " + digits(e.energy.input) +
-               ", impact " + digits(e.energy.impact) + ", fall " + digits(e.energy.dissipated) + ", kinetic " +
-               digits(e.energy.kinetic) + ", potential " + digits(e.energy.elastic) + ">";
+        return std::string("<RockingEnergy [") + (e.per_mass ? "m^2/s^2" : "1/s^2") + "]: initial " +
+               digits(e.energy.initial) + ", input " + digits(e.energy.input) +
+               (e.per_mass ? ", friction " + digits(e.energy.dissipated) : "") + ", impact " + digits(e.energy.impact) +
+               ", fall " + digits(e.energy.damped) + ", kinetic " + digits(e.energy.kinetic) + ", potential " +
+               digits(e.energy.elastic) + ">";
       });
 
-  value_class<Self>(m, "RockingResponse",
-                    R"(The response of a block that rocks, as `integrate` returns it for a `SlenderBlock`.
+  value_class<Self>(
+      m, "RockingResponse",
+      R"(The response of a block that rocks, as `integrate` returns it for a `SlenderBlock` or a `RockingBlock`.
 
 Rotations are relative to the ground, positive about the right corner. The arrays are read-only.)")
       .def_property_readonly(
-          "block", [](const Self& r) { return r.block; }, "The `SlenderBlock`.")
+          "block", [](const Self& r) { return r.block; }, "The `SlenderBlock` or `RockingBlock`.")
       .def_property_readonly(
           "motion", [](const Self& r) { return r.motion; }, "The ground motion.")
       .def_property_readonly(
@@ -158,12 +202,37 @@ last step of the motion up to the first at or after rest; but see `truncated`.)"
       .def_property_readonly("rotation", history<&RockingResponse::rotation>(),
                              "theta at `time` [rad], shape (N,); pi/2 in magnitude where the block lies on its side.")
       .def_property_readonly("rate", history<&RockingResponse::rate>(), "theta' at `time` [rad/s], shape (N,).")
+      .def_property_readonly("displacement", history_or_zeros<&RockingResponse::displacement>(),
+                             R"(Displacement of the middle of the base relative to the ground at `time` [m], shape (N,).
+
+At rest what the block has slid and walked. 0 for a `SlenderBlock`, which does not slip.)")
+      .def_property_readonly(
+          "top_displacement",
+          [](const py::object& self) {
+            if (!is_rigid(self.cast<const Self&>()))
+              throw std::invalid_argument(
+                  "RockingResponse.top_displacement: a SlenderBlock has no height; use a RockingBlock");
+            return view(self.cast<const Self&>().response.top_displacement, self);
+          },
+          R"(Displacement of the middle of the top relative to the ground at `time` [m], shape (N,).
+
+Of a `RockingBlock`; ValueError for a `SlenderBlock`, which has no height.)")
+      .def_property_readonly(
+          "gap", history_or_zeros<&RockingResponse::gap>(),
+          "Height of the lower corner above the ground at `time` [m], shape (N,); 0 except in flight.")
+      .def_property_readonly("residual", number<&RockingResponse::residual>(),
+                             "Displacement of the base at the end [m].")
+      .def_property_readonly("sliding_distance", number<&RockingResponse::sliding_distance>(),
+                             "Path that the base or a corner slips [m].")
+      .def_property_readonly("time_sliding", number<&RockingResponse::time_sliding>(), "Time spent slipping [s].")
       .def_property_readonly(
           "events", [](Self& r) { return keep(r.events, [&] { return events_array(r.response.events); }); },
           R"(Events sorted by time: a structured array.
 
-Fields: time [s], rotation [rad], rate [rad/s], kind ('uplift', 'impact', 'rest', 'overturned' or 'end'). The rate of an
-impact is that before it. A block that rocks already at the start has an uplift there. Of infinitely many bounces before
+Fields: time [s], rotation [rad], rate [rad/s], kind ('uplift', 'impact', 'rest', 'overturned' or 'end'; of a
+`RockingBlock` also 'slip', 'stick', 'liftoff' and 'landing'), rate_after [rad/s], displacement of the base [m], speed with
+which a corner arrives [m/s], and side, 1 for the right corner, -1 for the left one and 0 for the base. The rate of an impact
+is that before it, rate_after that after it; displacement, speed and side are 0 for a `SlenderBlock`. A block that rocks already at the start has an uplift there. Of infinitely many bounces before
 a rest, those that are resolved: the last ones have a negligible speed.)")
       .def_property_readonly("peak_rotation", number<&RockingResponse::peak>(),
                              "Largest |theta| over all time, not only at samples [rad]; pi/2 if the block overturned.")
@@ -182,13 +251,26 @@ a rest, those that are resolved: the last ones have a negligible speed.)")
           R"(Time from which it is certain that the block never comes back [s]; None if it stands.
 
 From the rest of the record it follows long before the block lies on its side: in the median, at 0.26 alpha. Under vertical
-motion it is the time at which |theta| = pi/2, or the end of the record.)")
+motion it is the time at which |theta| = pi/2, or the end of the record; that of a `RockingBlock` is always at |theta| =
+pi/2.)")
       .def_property_readonly("impacts", number<&RockingResponse::impacts>(),
-                             "Number of impacts faster than 1e-3 p alpha; slower ones are too many to count.")
+                             R"(Number of impacts of the base and landings; slow ones are too many to count.
+
+Those faster than 1e-3 p alpha, of a `RockingBlock` than 1 mm/s at the corner.)")
       .def_property_readonly("uplifts", number<&RockingResponse::uplifts>(), "Number of uplifts from rest.")
+      .def_property_readonly("liftoffs", number<&RockingResponse::liftoffs>(),
+                             "Number of times the block leaves the ground; 0 for a `SlenderBlock`.")
+      .def_property_readonly("impacts_with_slip", number<&RockingResponse::impacts_with_slip>(),
+                             R"(Number of impacts at which a given restitution could not hold.
+
+The corner slipped, or the restitution would have created energy; they are plastic impacts instead.)")
       .def_property_readonly("time_rocking", number<&RockingResponse::time_rocking>(), "Time spent rocking [s].")
       .def_property_readonly(
-          "energy", [](const Self& r) { return RockingEnergy{r.response.energy}; }, "The `RockingEnergy`.")
+          "energy",
+          [](const Self& r) {
+            return RockingEnergy{r.response.energy, is_rigid(r)};
+          },
+          "The `RockingEnergy`.")
       .def_property_readonly("margin", number<&RockingResponse::margin>(),
                              R"(Distance of the nearest decision, relative to what decides; infinite without a decision.
 
@@ -199,12 +281,14 @@ tiny, the history hangs on round-off.)")
                              R"(Largest |d theta / d ln(scale of the ground motion)| over alpha, at samples.
 
 From the exact derivative along the motion, up to an overturning: a relative error of 1e-16 of the input becomes
-1e-16 condition in theta/alpha. A rest resets it.)")
+1e-16 condition in theta/alpha. A rest resets it. NaN for a `RockingBlock`, whose derivatives are not computed: compare two
+scales.)")
       .def_property_readonly("remark", &remark_of,
                              R"(A sentence about limits of the result; empty if there are none (str).
 
 A history that hangs on round-off, with condition * 1e-16 > 1e-6; an overturned block, which may stand at a larger scale;
-a block that never rocks, but would if the ground accelerations were in g.)")
+impacts at which a given restitution could not hold; a block that never moves, but would if the ground accelerations were in
+g.)")
       .def_property_readonly(
           "at_rest", [](const Self& r) { return r.response.state.mode == RockingMode::rest; },
           "Whether the block rests on its base at the end (bool).")
@@ -239,8 +323,8 @@ the animation, `fps`, frames in a second, `title`, and `size`, width and height 
       .def("to_dataframe", in_python("stickslip.rocking.tables", "to_dataframe"),
            R"(Convert the histories to a pandas DataFrame over `time` [s].
 
-Columns `ground_acceleration` [m/s^2], `rotation` [rad] and `rate` [rad/s], and `vertical_ground_acceleration` [m/s^2] if it
-acted; units are in `attrs["units"]`. ImportError without pandas.)")
+Columns `ground_acceleration` [m/s^2], `rotation` [rad] and `rate` [rad/s], `vertical_ground_acceleration` [m/s^2] if it
+acted, and of a `RockingBlock` `displacement` and `top_displacement` [m]; units are in `attrs["units"]`. ImportError without pandas.)")
       .def("to_xarray", in_python("stickslip.rocking.tables", "to_xarray"),
            R"(Convert the histories to an xarray Dataset over the coordinate `time`.
 
@@ -265,12 +349,13 @@ str
                (side ? "overturned to the " + *side + ", certain at " + digits(r.response.overturned_at) + " s"
                      : "peak " + digits(r.response.peak) + " rad (" + digits(r.response.peak_ratio) + " alpha)") +
                ", " + std::to_string(r.response.impacts) + " impacts" +
+               (is_rigid(r) ? ", base displaced by " + digits(r.response.residual) + " m" : "") +
                (r.response.truncated ? ", samples end before rest" : "") + (remark.empty() ? "" : "; " + remark) + ">";
       });
 
   m.def(
-      "integrate", &integrate_block, py::arg("slider"), py::arg("motion"), py::kw_only(), py::arg("rotation") = 0.0,
-      py::arg("rate") = 0.0, py::arg("settle") = false,
+      "integrate", &integrate_block<SlenderBlock>, py::arg("slider"), py::arg("motion"), py::kw_only(),
+      py::arg("rotation") = 0.0, py::arg("rate") = 0.0, py::arg("settle") = false,
       R"(With a `SlenderBlock`, a block that rocks, from `rotation` [rad], below pi/2 in magnitude, and `rate` [rad/s]. The
 horizontal component along the axis acts, and a vertical one, under which g + a_z must stay positive. With `settle`, until the
 block rests or falls. Returns a `RockingResponse`.
@@ -278,6 +363,14 @@ block rests or falls. Returns a `RockingResponse`.
 Closed form between impacts, exact to round-off, which grows as e^(p t) between rests (see `RockingResponse.condition`); 60 ns
 per sample at rest, 0.8 us where every third sample has an impact. ValueError also for g + a_z <= 0; ConvergenceError with
 `settle` and a restitution of 1.)");
+  m.def(
+      "integrate", &integrate_block<RockingBlock>, py::arg("slider"), py::arg("motion"), py::kw_only(),
+      py::arg("rotation") = 0.0, py::arg("rate") = 0.0, py::arg("settle") = false,
+      R"(With a `RockingBlock`, a block that rocks, slides and flies, as with a `SlenderBlock`; g + a_z may be negative. Returns a
+`RockingResponse`.
+
+Taylor series between events, exact to round-off, which grows as e^(p t) between rests; 0.5 us per sample rocking, 1 us
+slipping. ConvergenceError where its friction decides nothing, see `RockingBlock`, and with `settle` if it never rests.)");
 }
 
 }  // namespace stickslip::python

@@ -7,6 +7,7 @@
 
 #include "parts.hpp"
 #include "stickslip/rocking/response.hpp"
+#include "stickslip/rocking/rocking_block.hpp"
 #include "stickslip/rocking/slender_block.hpp"
 
 namespace stickslip::python {
@@ -15,18 +16,32 @@ template <>
 inline constexpr auto parts<SlenderBlock> = std::tuple(&SlenderBlock::p, &SlenderBlock::alpha_right,
                                                        &SlenderBlock::alpha_left, &SlenderBlock::restitution);
 template <>
+inline constexpr auto parts<RockingBlockSize> = std::tuple(&RockingBlockSize::width, &RockingBlockSize::height,
+                                                           &RockingBlockSize::mu, &RockingBlockSize::restitution,
+                                                           &RockingBlockSize::lever, &RockingBlockSize::center,
+                                                           &RockingBlockSize::gyration_radius);
+template <>
+inline constexpr auto parts<RockingBlock> = std::tuple(&RockingBlock::size);
+template <>
 inline constexpr auto parts<RockingState> = std::tuple(&RockingState::rotation, &RockingState::rate,
-                                                       &RockingState::mode, &RockingState::overturned);
+                                                       &RockingState::mode, &RockingState::overturned,
+                                                       &RockingState::slip, &RockingState::displacement,
+                                                       &RockingState::velocity, &RockingState::rise,
+                                                       &RockingState::climb);
 template <>
 inline constexpr auto parts<RockingEvent> = std::tuple(&RockingEvent::time, &RockingEvent::rotation,
-                                                       &RockingEvent::rate, &RockingEvent::kind);
+                                                       &RockingEvent::rate, &RockingEvent::kind,
+                                                       &RockingEvent::rate_after, &RockingEvent::displacement,
+                                                       &RockingEvent::speed, &RockingEvent::side);
 template <>
 inline constexpr auto parts<RockingResponse> = std::tuple(
     &RockingResponse::rotation, &RockingResponse::rate, &RockingResponse::events, &RockingResponse::peak,
     &RockingResponse::peak_time, &RockingResponse::peak_ratio, &RockingResponse::overturned,
-    &RockingResponse::overturned_at, &RockingResponse::impacts, &RockingResponse::uplifts,
-    &RockingResponse::time_rocking, &RockingResponse::energy, &RockingResponse::margin, &RockingResponse::condition,
-    &RockingResponse::truncated, &RockingResponse::components, &RockingResponse::state);
+    &RockingResponse::overturned_at, &RockingResponse::impacts, &RockingResponse::uplifts, &RockingResponse::liftoffs,
+    &RockingResponse::impacts_with_slip, &RockingResponse::displacement, &RockingResponse::top_displacement,
+    &RockingResponse::gap, &RockingResponse::residual, &RockingResponse::sliding_distance,
+    &RockingResponse::time_sliding, &RockingResponse::time_rocking, &RockingResponse::energy, &RockingResponse::margin,
+    &RockingResponse::condition, &RockingResponse::truncated, &RockingResponse::components, &RockingResponse::state);
 
 /// The name of a side, +1 or -1; nothing for 0.
 inline std::optional<std::string> side_name(int side) {
@@ -34,9 +49,10 @@ inline std::optional<std::string> side_name(int side) {
   return side > 0 ? "right" : "left";
 }
 
-/// The Python class RockingEnergy: `dissipated` is the fall on the side, `elastic` the potential energy.
+/// The Python class RockingEnergy: `dissipated` is friction, `damped` the fall on the side, `elastic` the potential energy.
 struct RockingEnergy {
   Energy energy;
+  bool per_mass;
 };
 
 struct RockingResponseWithInputs {
@@ -50,13 +66,14 @@ struct RockingResponseWithInputs {
 };
 
 template <>
-inline constexpr auto parts<RockingEnergy> = std::tuple(&RockingEnergy::energy);
+inline constexpr auto parts<RockingEnergy> = std::tuple(&RockingEnergy::energy, &RockingEnergy::per_mass);
 template <>
 inline constexpr auto parts<RockingResponseWithInputs> = std::tuple(&RockingResponseWithInputs::response,
                                                                     &RockingResponseWithInputs::block,
                                                                     &RockingResponseWithInputs::motion);
 
 void bind_slender_block(py::module_& m);
+void bind_rocking_block(py::module_& m);
 void bind_rocking_advance(py::module_& m);
 void bind_rocking_response(py::module_& m);
 void bind_rocking_outcomes(py::module_& m);

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core
-from .._core import Lognormal, Normal, SlenderBlock, Uniform
+from .._core import Lognormal, Normal, RockingBlock, SlenderBlock, Uniform
 from .._optional import optional
 from .sources import AnyMember
 
@@ -63,7 +63,9 @@ class Random:
     and the value: give a `Normal` bounds. A member costs some 20 us, one thread at a time.
     """
 
-    def __init__(self, kind: Callable[..., AnyMember | SlenderBlock], /, **parameters: Any) -> None:
+    def __init__(
+        self, kind: Callable[..., AnyMember | SlenderBlock | RockingBlock], /, **parameters: Any
+    ) -> None:
         if not callable(kind):
             raise TypeError(f"Random: kind must be callable, such as Coulomb, got {kind!r}")
         self._kind = kind
@@ -82,7 +84,7 @@ class Random:
         return getattr(self._kind, "__name__", None) or repr(self._kind)
 
     @property
-    def kind(self) -> Callable[..., AnyMember | SlenderBlock]:
+    def kind(self) -> Callable[..., AnyMember | SlenderBlock | RockingBlock]:
         """The callable that makes the slider or the law."""
         return self._kind
 

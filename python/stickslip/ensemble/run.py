@@ -138,9 +138,9 @@ def run_ensemble(
     -------
     Ensemble
         Identical to the last bit for any threads, executor and parts, and for a resumed run. With
-        `SlenderBlock`, a list of blocks or a `Random` that makes them, a `RockingEnsemble`, of
-        probabilities of overturning; `dt`, `contact`, `velocity_spectrum`, `ground_acceleration`,
-        `executor` and `checkpoint` are then refused.
+        a `SlenderBlock` or a `RockingBlock`, a list of them or a `Random` that makes them, a
+        `RockingEnsemble`, of probabilities of overturning; `dt`, `contact`, `velocity_spectrum`,
+        `ground_acceleration`, `executor` and `checkpoint` are then refused.
 
     Raises
     ------

@@ -15,6 +15,7 @@ from .._core import (
     IsolatedStructure,
     PlanarSlider,
     PoissonPulses,
+    RockingBlock,
     SlenderBlock,
     Slider,
     WithTransverse,
@@ -80,7 +81,7 @@ class SliderSource(Protocol):
 AnySlider: TypeAlias = Slider | FrictionLaw | PlanarSlider
 AnyStructure: TypeAlias = IsolatedStructure | EquipmentOnFloor | FlexibleSlope
 AnyMember: TypeAlias = "AnySlider | AnyStructure"
-Blocks: TypeAlias = "SlenderBlock | Sequence[SlenderBlock]"
+Blocks: TypeAlias = "SlenderBlock | RockingBlock | Sequence[SlenderBlock] | Sequence[RockingBlock]"
 AnySliders: TypeAlias = "AnyMember | Sequence[AnyMember] | Drawn[AnyMember] | SliderSource"
 Records: TypeAlias = "GroundMotion | Sequence[GroundMotion] | Drawn[GroundMotion]"
 AnyMotions: TypeAlias = (

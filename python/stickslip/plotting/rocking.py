@@ -9,7 +9,7 @@ from matplotlib.figure import Figure, FigureBase
 from matplotlib.patches import Polygon
 from numpy.typing import NDArray
 
-from .._core import STANDARD_GRAVITY, RockingResponse, SlenderBlock
+from .._core import STANDARD_GRAVITY, RockingBlock, RockingResponse, SlenderBlock
 from .figures import Place, new_figure
 from .panels import draw_ground
 from .player import Film, Group
@@ -19,8 +19,12 @@ from .words import digits, with_remark
 _BEYOND = 1.5  # alphas that a picture of a fall shows
 
 
-def describe_block(block: SlenderBlock) -> str:
+def describe_block(block: SlenderBlock | RockingBlock) -> str:
     """A short description, such as 'p 2.14 rad/s, alpha 0.25 rad, restitution 0.9'."""
+    if isinstance(block, RockingBlock):
+        mu = "no slip" if block.mu is None else f"mu {digits(block.mu)}"
+        size = f"{digits(block.width)} x {digits(block.height)} m"
+        return f"{size}, {mu}, restitution {digits(block.restitution)}"
     sides = digits(block.alpha)
     if block.alpha_left != block.alpha:
         sides += f" right, {digits(block.alpha_left)} left"
@@ -29,9 +33,9 @@ def describe_block(block: SlenderBlock) -> str:
 
 def _motion(response: RockingResponse) -> tuple[NDArray[np.float64], ...]:
     """Times, theta and theta' at samples and events, sorted; at an impact before and after it."""
-    events, block = response.events, response.block
-    after = events[events["kind"] == "impact"].copy()
-    after["rate"] *= block.restitution
+    events = response.events
+    after = events[np.isin(events["kind"], ("impact", "landing"))].copy()
+    after["rate"] = after["rate_after"]
     parts = [events, after]
     t = np.concatenate([response.time, *(part["time"] for part in parts)])
     order = np.argsort(t, kind="stable")
@@ -40,8 +44,18 @@ def _motion(response: RockingResponse) -> tuple[NDArray[np.float64], ...]:
     return t[order], theta[order], rate[order]
 
 
-def _over_alpha(block: SlenderBlock, theta: NDArray[np.float64]) -> NDArray[np.float64]:
+def _over_alpha(
+    block: SlenderBlock | RockingBlock, theta: NDArray[np.float64]
+) -> NDArray[np.float64]:
     return theta / np.where(theta < 0, block.alpha_left, block.alpha)
+
+
+def _levels(block: SlenderBlock | RockingBlock) -> tuple[float, float]:
+    """The ground accelerations over g up to which a block rests, to the left and to the right."""
+    if isinstance(block, SlenderBlock):
+        return block.alpha, block.alpha_left
+    mu = np.inf if block.mu is None else block.mu
+    return min(float(np.tan(block.alpha)), mu), min(float(np.tan(block.alpha_left)), mu)
 
 
 @overload
@@ -60,6 +74,7 @@ def plot_rocking_response(
     The first panel shows the accelerations under which the block rests as a band, from
     -alpha g to alpha_left g. The second marks the impacts, the peak, and the time from which an
     overturning is certain; dashed lines are at theta = alpha. Rotations beyond 1.5 alpha are cut.
+    A `RockingBlock` has a third, of the displacement of its base.
 
     Parameters
     ----------
@@ -72,15 +87,18 @@ def plot_rocking_response(
     Returns
     -------
     matplotlib Figure or SubFigure
-        With these axes: ground acceleration [g], theta/alpha.
+        With these axes: ground acceleration [g], theta/alpha, and the base [cm].
     """
     block = response.block
     with style():
-        figure = figure or new_figure(7, 4.5)
-        ground, tilt = figure.subplots(2, sharex=True, height_ratios=(1, 1.5))
+        rigid = isinstance(block, RockingBlock)
+        figure = figure or new_figure(7, 6 if rigid else 4.5)
+        ratios = (1, 1.5, 1) if rigid else (1, 1.5)
+        ground, tilt, *others = figure.subplots(len(ratios), sharex=True, height_ratios=ratios)
         put_title(ground, response.motion, title, with_remark(describe_block(block), response))
         draw_ground(ground, response, 0, float(response.time[-1]))  # type: ignore[arg-type]
-        ground.axhspan(-block.alpha, block.alpha_left, color=BLUE, alpha=0.12, linewidth=0)
+        right, left = _levels(block)
+        ground.axhspan(-right, left, color=BLUE, alpha=0.12, linewidth=0)
         ground.annotate("shaded:\nrests", (1, 0.5), **AT_RIGHT, va="center", color=BLUE)
         t, theta, _ = _motion(response)
         ratio = _over_alpha(block, theta)
@@ -116,7 +134,11 @@ def plot_rocking_response(
             tilt.annotate("never rocks", (0.5, 0.6), xycoords="axes fraction", color=GRAY)
         tilt.set_xlim(response.time[0], response.time[-1])
         tilt.set_ylabel("rotation / alpha")
-        tilt.set_xlabel("time [s]")
+        for base in others:
+            base.plot(response.time, 100 * response.displacement, color=BLUE, linewidth=1.2)
+            base.axhline(0, color=GRAY, linewidth=0.6, zorder=0)
+            base.set_ylabel("base [cm]")
+        (others or [tilt])[-1].set_xlabel("time [s]")
         figure.align_ylabels()
     return figure
 
@@ -184,23 +206,32 @@ def block_on_ground(
     title: str | None,
     inches: tuple[float, float],
 ) -> tuple[Figure, Film]:
-    """The film of a block: a uniform one of its p and alpha, in the scale of the ground."""
+    """The film of a block, of a `SlenderBlock` a uniform one of its p and alpha."""
     block = response.block
     figure = new_figure(*inches)
     scene, way = figure.subplots(2, 1, height_ratios=(1.3, 1))
     theta = np.interp(times, *_motion(response)[:2])
-    radius = 0.75 * STANDARD_GRAVITY / block.p**2
-    center = radius * np.cos((block.alpha + block.alpha_left) / 2)
-    right, left = center * np.tan(block.alpha), center * np.tan(block.alpha_left)
+    gap = np.zeros(len(times))
+    if isinstance(block, RockingBlock):
+        right = left = block.width / 2
+        reach = block.height
+        moves = np.interp(times, response.time, response.displacement)
+        gap = np.interp(times, response.time, response.gap)
+    else:
+        radius = 0.75 * STANDARD_GRAVITY / block.p**2
+        center = radius * np.cos((block.alpha + block.alpha_left) / 2)
+        right, left = center * np.tan(block.alpha), center * np.tan(block.alpha_left)
+        reach = 2 * center
+        moves = np.where(theta < 0, -left, right) * (1 - np.cos(theta))
     on_floor, on_body = Group(scene), Group(scene)
-    reach = 2 * center
     scene.axhspan(-0.15 * reach, 0, color=PALE, zorder=1)
     on_floor.add(_box(-0.01 * reach, 0.01 * reach, -0.15 * reach, 0), color=GRAY, zorder=2)
-    body = _box(-left, right, 0, 2 * center)
+    body = _box(-left, right, 0, reach)
     on_body.add(body, facecolor=BLUE, edgecolor=INK, linewidth=0.8, zorder=3)
     swing = np.ptp(ground) / 2 if len(ground) else 0.0
     middle = float(ground.max() + ground.min()) / 2
-    half = swing + max(right, left) + reach * min(1.0, 0.2 + float(np.sin(np.abs(theta).max())))
+    tilted = min(1.0, 0.2 + float(np.sin(np.abs(theta).max())))
+    half = swing + np.abs(moves).max() + max(right, left) + reach * tilted
     scene.set_xlim(middle - half, middle + half)
     scene.set_ylim(-0.15 * reach, 1.15 * np.hypot(reach, max(right, left)))
     scene.set_aspect("equal", adjustable="box")
@@ -225,7 +256,7 @@ def block_on_ground(
     film.groups = [on_floor, on_body]
     on_floor.move(ground, 0 * ground)
     toe = np.where(theta < 0, -left, right)
-    on_body.move(ground + toe * (1 - np.cos(theta)), toe * np.sin(theta), -theta)
+    on_body.move(ground + moves, gap + toe * np.sin(theta), -theta)
     film.body = body, [BLUE if tilt == 0 else VERMILION for tilt in theta]
     film.follow(way, line, dot, points[:, 0], points)
     return figure, film

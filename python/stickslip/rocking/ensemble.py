@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
-from .._core import Drawn, Interval, SlenderBlock
+from .._core import Drawn, Interval
 from .._numbers import real, reals
 from .._tables import Columns
 from .._tabular import Tabular
 from ..runs.progress import Progress
-from .sweep import RESULTS, SIDES, UNITS
+from .sweep import BLOCKS, SIDES, UNITS, AnyBlock, results_of, same_kind
 
 
 class RockingEnsemble(Tabular):
@@ -34,11 +34,13 @@ class RockingEnsemble(Tabular):
     overturned_at : ndarray, shape (M,)
         Time from which the overturning is certain [s]; NaN if the member stands.
     impacts : ndarray of int, shape (M,)
-        Number of impacts faster than 1e-3 p alpha.
+        As of `RockingResponse`.
     margin, condition : ndarray, shape (M,)
         As of `RockingResponse`.
     seed, first_member : int
-    blocks : tuple of SlenderBlock
+    residual, sliding_distance : ndarray, shape (M,)
+        As of `RockingResponse` [m]; 0 for a `SlenderBlock`.
+    blocks : tuple of SlenderBlock or of RockingBlock
         Member i has block i modulo their number.
     configuration : str
         Of the ground motions.
@@ -53,7 +55,7 @@ class RockingEnsemble(Tabular):
 
     def __init__(
         self,
-        blocks: Sequence[SlenderBlock],
+        blocks: Sequence[AnyBlock],
         seed: int,
         first_member: int,
         settle: bool,
@@ -72,6 +74,9 @@ class RockingEnsemble(Tabular):
         self.impacts: NDArray[np.int64] = results["impacts"]
         self.margin: NDArray[np.float64] = results["margin"]
         self.condition: NDArray[np.float64] = results["condition"]
+        none = np.zeros(len(self.overturned))
+        self.residual: NDArray[np.float64] = results.get("residual", none)
+        self.sliding_distance: NDArray[np.float64] = results.get("sliding_distance", none)
 
     @property
     def members(self) -> int:
@@ -147,12 +152,13 @@ class RockingEnsemble(Tabular):
         return self.peak_rotation_ratio[self.overturned == 0]
 
     def _table(self) -> tuple[Columns, Mapping[str, str]]:
+        names = results_of(self.blocks)
         columns: dict[str, NDArray[Any]] = {
             "member": self.first_member + np.arange(self.members),
-            **{name: getattr(self, name) for name in (*RESULTS, "margin")},
+            **{name: getattr(self, name) for name in names},
         }
         columns["overturned"] = SIDES[columns["overturned"] + 1]
-        return columns, UNITS
+        return columns, {name: UNITS[name] for name in names if name in UNITS}
 
     def __repr__(self) -> str:
         fell = int(np.count_nonzero(self.overturned))
@@ -175,19 +181,14 @@ def run_blocks(
     show: Progress | None,
 ) -> RockingEnsemble:
     """The ensemble of blocks; see `stickslip.run_ensemble`."""
-    if isinstance(blocks, SlenderBlock):
+    if isinstance(blocks, BLOCKS):
         these: list[Any] = [blocks]
     elif hasattr(blocks, "draw"):  # a Random
         these = [blocks.sample(seed=seed, member=first_member + i) for i in range(members)]
     else:
         listed = list(blocks)
         these = [listed[(first_member + i) % len(listed)] for i in range(min(members, len(listed)))]
-    for i, block in enumerate(these):
-        if not isinstance(block, SlenderBlock):
-            raise TypeError(
-                "run_ensemble: as the first is a SlenderBlock, all must be;"
-                f" number {i} is of type {type(block).__name__}"
-            )
+    same_kind(these, "run_ensemble")
     found = _core.run_blocks(
         these,
         motions,
@@ -207,9 +208,9 @@ def run_blocks(
 def has_blocks(sliders: Any, seed: int = 0, member: int = 0) -> bool:
     """Whether what a run takes as sliders are blocks, from the first of them."""
     if hasattr(sliders, "draw"):  # a Random
-        return isinstance(sliders.sample(seed=seed, member=member), SlenderBlock)
+        return isinstance(sliders.sample(seed=seed, member=member), BLOCKS)
     if isinstance(sliders, Sequence) and len(sliders):
-        return isinstance(sliders[0], SlenderBlock)
-    if isinstance(sliders, Drawn) and isinstance(sliders.items[0], SlenderBlock):
+        return isinstance(sliders[0], BLOCKS)
+    if isinstance(sliders, Drawn) and isinstance(sliders.items[0], BLOCKS):
         raise TypeError("run_ensemble: Drawn covers sliders; give blocks as a list or a Random")
-    return isinstance(sliders, SlenderBlock)
+    return isinstance(sliders, BLOCKS)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
-from .._core import GroundMotion, Interval, SlenderBlock
+from .._core import GroundMotion, Interval, RockingBlock, SlenderBlock
 from .._numbers import reals
 from .._tables import Columns
 from .._tabular import Tabular
@@ -18,7 +18,32 @@ from ..runs.progress import Progress
 
 SIDES = np.array(["left", "", "right"])  # of -1, 0, 1
 RESULTS = ("peak_rotation", "peak_rotation_ratio", "overturned", "overturned_at", "impacts")
-UNITS = {"peak_rotation": "rad", "overturned_at": "s"}
+OF_RIGID = ("residual", "sliding_distance")
+UNITS = {
+    "peak_rotation": "rad",
+    "overturned_at": "s",
+    "residual": "m",
+    "sliding_distance": "m",
+}
+AnyBlock: TypeAlias = "SlenderBlock | RockingBlock"
+BLOCKS = (SlenderBlock, RockingBlock)
+
+
+def same_kind(these: Sequence[Any], who: str) -> None:
+    """Raise TypeError unless all are blocks of the type of the first."""
+    kind = type(these[0])
+    for i, block in enumerate(these):
+        if type(block) is not kind:
+            raise TypeError(
+                f"{who}: as the first is a {kind.__name__}, all must be;"
+                f" number {i} is of type {type(block).__name__}"
+            )
+
+
+def results_of(blocks: Sequence[AnyBlock]) -> tuple[str, ...]:
+    """The columns of results."""
+    rigid = isinstance(blocks[0], RockingBlock)
+    return (*RESULTS, *(OF_RIGID if rigid else ()), "margin")
 
 
 class RockingFailure(NamedTuple):
@@ -48,10 +73,12 @@ class RockingTable(Tabular):
     overturned_at : ndarray
         Time from which the overturning is certain [s]; NaN if the block stands.
     impacts : ndarray of int
-        Number of impacts faster than 1e-3 p alpha.
+        As of `RockingResponse`.
     margin, condition : ndarray
         As of `RockingResponse`.
-    blocks : tuple of SlenderBlock
+    residual, sliding_distance : ndarray
+        As of `RockingResponse` [m]; 0 for a `SlenderBlock`.
+    blocks : tuple of SlenderBlock or of RockingBlock
     parameters : dict of ndarray
         By name, the parameters that `grid` varied or that were drawn, for each block.
     records : tuple of str
@@ -80,7 +107,7 @@ class RockingTable(Tabular):
     def __init__(
         self,
         *,
-        blocks: Sequence[SlenderBlock],
+        blocks: Sequence[AnyBlock],
         parameters: Mapping[str, ArrayLike],
         motions: Sequence[GroundMotion],
         metadata: Mapping[str, ArrayLike],
@@ -106,6 +133,9 @@ class RockingTable(Tabular):
         self.impacts: NDArray[np.int64] = results["impacts"]
         self.margin: NDArray[np.float64] = results["margin"]
         self.condition: NDArray[np.float64] = results["condition"]
+        none = np.zeros(self.peak_rotation.shape)
+        self.residual: NDArray[np.float64] = results.get("residual", none)
+        self.sliding_distance: NDArray[np.float64] = results.get("sliding_distance", none)
 
     def overturning(self, *, block: int = 0, confidence: float = 0.95) -> list[Interval]:
         """The fraction of records and polarities under which a block overturns, at each scale.
@@ -149,9 +179,10 @@ class RockingTable(Tabular):
         columns["record"] = along(self.records, 1)
         columns |= {name: along(values, 1) for name, values in self.metadata.items()}
         columns |= {"scale": along(self.scale, 2), "polarity": along(self.polarity, 3)}
-        columns |= {name: getattr(self, name).ravel() for name in (*RESULTS, "margin")}
+        names = results_of(self.blocks)
+        columns |= {name: getattr(self, name).ravel() for name in names}
         columns["overturned"] = SIDES[columns["overturned"] + 1]
-        return columns, UNITS
+        return columns, {name: UNITS[name] for name in names if name in UNITS}
 
     def __repr__(self) -> str:
         fell = np.count_nonzero(self.overturned)
@@ -163,7 +194,7 @@ class RockingTable(Tabular):
 
 
 def sweep_blocks(
-    blocks: Sequence[SlenderBlock],
+    blocks: Sequence[AnyBlock],
     parameters: Mapping[str, ArrayLike],
     motions: Sequence[GroundMotion],
     metadata: Mapping[str, ArrayLike],

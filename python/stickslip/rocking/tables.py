@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .._core import RockingResponse, build_info
+from .._core import RockingBlock, RockingResponse, build_info
 from .._optional import optional
 from .._tables import frame_of, html_table, json_text, write_csv
 from .._text import printable
@@ -20,6 +20,8 @@ _UNITS = {
     "vertical_ground_acceleration": "m/s^2",
     "rotation": "rad",
     "rate": "rad/s",
+    "displacement": "m",
+    "top_displacement": "m",
 }
 
 
@@ -36,6 +38,11 @@ def _columns(response: RockingResponse) -> tuple[dict[str, NDArray[Any]], dict[s
     if motion.vertical is not None:
         columns["vertical_ground_acceleration"] = ground(motion.vertical)
     columns |= {"rotation": response.rotation, "rate": response.rate}
+    if isinstance(response.block, RockingBlock):
+        columns |= {
+            "displacement": response.displacement,
+            "top_displacement": response.top_displacement,
+        }
     return columns, {name: _UNITS[name] for name in columns}
 
 
@@ -67,6 +74,7 @@ def to_xarray(response: RockingResponse) -> Any:
     )
 
 
+_OF_RIGID = ("residual", "sliding_distance", "time_sliding", "liftoffs", "impacts_with_slip")
 _RESULTS = (
     *("peak_rotation", "peak_time", "peak_rotation_ratio", "overturned", "overturned_at"),
     *("impacts", "uplifts", "time_rocking", "at_rest", "margin", "condition", "remark"),
@@ -77,12 +85,13 @@ def to_json(response: RockingResponse) -> str:
     """The results and histories as JSON; see `RockingResponse.to_json`."""
     columns, units = _columns(response)
     events = response.events
+    names = (*_RESULTS, *(_OF_RIGID if isinstance(response.block, RockingBlock) else ()))
     document = {
         "stickslip": build_info()["version"],
         "block": repr(response.block),
         "motion": response.motion.name,
         "components": response.components,
-        **{name: getattr(response, name) for name in _RESULTS},
+        **{name: getattr(response, name) for name in names},
         "units": units,
         **columns,
         "events": [dict(zip(events.dtype.names or (), row)) for row in events.tolist()],
@@ -107,8 +116,14 @@ def response_html(response: RockingResponse) -> str:
         ("impacts", f"{response.impacts:,}"),
         ("time rocking", f"{response.time_rocking:.4g} s"),
         ("margin of the nearest decision", f"{response.margin:.3g}"),
-        ("condition", f"{response.condition:.3g}"),
     ]
+    if isinstance(response.block, RockingBlock):
+        rows += [
+            ("displacement of the base at the end", f"{response.residual:.4g} m"),
+            ("path slipped", f"{response.sliding_distance:.4g} m"),
+        ]
+    else:
+        rows.append(("condition", f"{response.condition:.3g}"))
     if response.remark:
         rows.append(("remark", response.remark))
     return html_table("Response of a block that rocks", [], rows)

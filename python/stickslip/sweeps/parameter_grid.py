@@ -13,6 +13,7 @@ from .._core import (
     FlexibleSlope,
     IsolatedStructure,
     PlanarSlider,
+    RockingBlock,
     SlenderBlock,
 )
 from ..ensemble.sources import AnySlider
@@ -20,7 +21,7 @@ from ..ensemble.sources import AnySlider
 AnySwept: TypeAlias = (
     "AnySlider | PlanarSlider | IsolatedStructure | EquipmentOnFloor | FlexibleSlope"
 )
-S = TypeVar("S", bound="AnySwept | SlenderBlock")
+S = TypeVar("S", bound="AnySwept | SlenderBlock | RockingBlock")
 
 
 class Grid(list[S]):

@@ -22,6 +22,7 @@ from .._core import (
     GroundMotion,
     IsolatedStructure,
     PlanarSlider,
+    RockingBlock,
     SlenderBlock,
     Slider,
 )
@@ -30,7 +31,7 @@ from ..ensemble.random_slider import Random
 from ..ensemble.sources import check_directions
 from ..motions.suite import Suite
 from ..rocking.ensemble import has_blocks
-from ..rocking.sweep import RockingTable, sweep_blocks
+from ..rocking.sweep import BLOCKS, AnyBlock, RockingTable, same_kind, sweep_blocks
 from ..runs import parts
 from ..runs.progress import Progress, shown
 from .checkpoint import Checkpoint
@@ -63,7 +64,7 @@ def sweep(
 ) -> SweepTable: ...
 @overload
 def sweep(
-    sliders: SlenderBlock | Sequence[SlenderBlock],
+    sliders: AnyBlock | Sequence[SlenderBlock] | Sequence[RockingBlock],
     motions: GroundMotion | Sequence[GroundMotion],
     *,
     scale: ArrayLike | None = None,
@@ -73,7 +74,12 @@ def sweep(
     progress: bool | Progress = False,
 ) -> RockingTable: ...
 def sweep(
-    sliders: AnySwept | SlenderBlock | Sequence[AnySwept] | Sequence[SlenderBlock] | Random,
+    sliders: AnySwept
+    | AnyBlock
+    | Sequence[AnySwept]
+    | Sequence[SlenderBlock]
+    | Sequence[RockingBlock]
+    | Random,
     motions: GroundMotion | Sequence[GroundMotion],
     *,
     scale: ArrayLike | None = None,
@@ -138,9 +144,9 @@ def sweep(
     -------
     SweepTable
         Arrays over [slider, record, polarity]; identical to the last bit for any threads, executor
-        and parts, and for a resumed run. With `SlenderBlock`, a list of blocks or a `Random` that
-        makes them, a `RockingTable` over [block, record, scale, polarity]; `contact`, `executor`
-        and `checkpoint` are then refused.
+        and parts, and for a resumed run. With a `SlenderBlock` or a `RockingBlock`, a list of them
+        or a `Random` that makes them, a `RockingTable` over [block, record, scale, polarity];
+        `contact`, `executor` and `checkpoint` are then refused.
 
     Raises
     ------
@@ -265,14 +271,9 @@ def sweep(
     return table
 
 
-def _blocks(given: Any) -> list[SlenderBlock]:
-    these = [given] if isinstance(given, SlenderBlock) else list(given)
-    for i, one in enumerate(these):
-        if not isinstance(one, SlenderBlock):
-            raise TypeError(
-                "sweep: as sliders[0] is a SlenderBlock, all must be;"
-                f" sliders[{i}] is of type {type(one).__name__}"
-            )
+def _blocks(given: Any) -> list[Any]:
+    these = [given] if isinstance(given, BLOCKS) else list(given)
+    same_kind(these, "sweep")
     return these
 
 

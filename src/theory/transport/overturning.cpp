@@ -122,7 +122,8 @@ class Survival {
       const std::size_t now = lost_.size() - 1;
       if (now % apart != 0 || now < 3 * apart) continue;
       const double last = decay(now - apart, now), before = decay(now - 2 * apart, now - apart);
-      if (last > 0 && std::abs(last - before) <= 0.01 * tolerance * last * (static_cast<double>(now) / steps)) {
+      if (last > 0 && std::abs(last - before) <=
+                          0.01 * tolerance * last * (static_cast<double>(now) / static_cast<double>(steps))) {
         rate_ = last / apart;
         break;
       }
