@@ -369,7 +369,7 @@ per sample at rest, 0.8 us where every third sample has an impact. ValueError al
       R"(With a `RockingBlock`, a block that rocks, slides and flies, as with a `SlenderBlock`; g + a_z may be negative. Returns a
 `RockingResponse`.
 
-Taylor series between events, exact to round-off, which grows as e^(p t) between rests; 0.5 us per sample rocking, 1 us
+Taylor series between events, exact to round-off, which grows as e^(p t) between rests; 0.5 us per sample rocking, 2 us
 slipping. ConvergenceError where its friction decides nothing, see `RockingBlock`, and with `settle` if it never rests.)");
 }
 
