@@ -254,7 +254,7 @@ class Slider(Model):
         return p - state[0] * self.w2, normal
 
     def field(self, mode, state, load):
-        x, v, gap, fall = state
+        x, v, _gap, fall = state
         q, normal = self.pull(state, load)
         still = x * 0
         if mode in ("stuck", "held+", "held-"):
@@ -267,7 +267,7 @@ class Slider(Model):
         return v, q - v * self.c - normal * self.resist(s, v * s) * s, still, still
 
     def guards(self, mode, state, load):
-        x, v, gap, fall = state
+        x, v, gap, _fall = state
         q, normal = self.pull(state, load)
         if mode == "flight":
             yield "landing", gap
@@ -290,12 +290,13 @@ class Slider(Model):
             yield "wall-", x + arb(self.stops["gap"])
 
     def at_rest(self, state, load):
-        x, v, gap, fall = state
+        x, _v, _gap, _fall = state
         state = [x, arb(0), arb(0), arb(0)]
         q, normal = self.pull(state, load)
         if self.stops and abs(x) > arb(self.stops["gap"]) - arb("1e-30"):
-            if q * sign(x) > 0:
-                return ("held+" if x > 0 else "held-"), state
+            side = sign(x)
+            if q * side > 0:
+                return ("held+" if side > 0 else "held-"), state
         if mid(q - normal * self.hold(1)) > arb("1e-45"):
             return 1, state
         if self.hold(-1) is not None and mid(-q - normal * self.hold(-1)) > arb("1e-45"):
@@ -351,7 +352,7 @@ class Planar(Model):
         return -load[0] - x * self.w2, -load[1] - y * self.w2, (load[2] + self.g) * self.mu
 
     def field(self, mode, state, load):
-        x, y, vx, vy = state
+        x, _y, vx, vy = state
         if mode == "stuck":
             return (x * 0,) * 4
         qx, qy, a = self.pull(state, load)
@@ -393,7 +394,7 @@ class Planar(Model):
         return ("slide" if name == "turn" else "start"), state
 
     def start(self, state, load, left):
-        """From a smooth breakaway: U = |v|, phi its direction, a formal series cut where it is small."""
+        """From a smooth breakaway, with |v| and its direction: a formal series, cut where small."""
         order = 44
         flint.ctx.cap = order
         x, y = state[:2]
@@ -422,7 +423,10 @@ class Planar(Model):
                 if series[k] != 0:
                     h = min(h, arb(math.exp((-self.leave - log(abs(mid(series[k])))) / k)))
         h = mid(h)
-        at = lambda one: mid(arb_poly([mid(one[k]) for k in range(order - 2)])(h))
+
+        def at(one):
+            return mid(arb_poly([mid(one[k]) for k in range(order - 2)])(h))
+
         dx, dy = at(px), at(py)
         u, f = at(speed), at(phi)
         vx, vy = u * f.cos(), u * f.sin()
@@ -467,7 +471,7 @@ class Series(Model):
         still = state[0] * 0
         if mode == "stuck":
             return [still] * len(state)
-        s, moving = mode
+        _s, moving = mode
         total = sum((self.parts[k][0] for k in moving), arb(0))
         v = state[1]
         rates = [v, -load[0] - (load[1] + self.g) * self.phi(mode, state)]
@@ -713,7 +717,7 @@ def answer(problem, order=ORDER, fineness=1, leave=50):
             kind, lambda: 2 * len(model.modes)
         )()
         state = [x[0], v[0], *(0,) * more]
-    mode, state, peak, events = solve(
+    _mode, state, peak, events = solve(
         model, "begin", state, ground["dt"], components, order, fineness
     )
     if kind == "rocking":

@@ -65,7 +65,8 @@ def burst(factor=1.0, dt=0.02, duration=8.0, vertical=None, transverse=None):
     )
     ground = {
         "dt": dt,
-        "formula": f"along = {factor:g} e(t) (2.4 sin(7.3 t) + 1.6 sin(13.1 t + 1) + 0.9 sin(23.7 t + 2)),"
+        "formula": f"along = {factor:g} e(t) (2.4 sin(7.3 t) + 1.6 sin(13.1 t + 1)"
+        " + 0.9 sin(23.7 t + 2)),"
         " e(t) = (t/2)^2 exp(2 - t)",
         "along": rounded(factor * along),
     }
@@ -88,8 +89,8 @@ def pulse(amplitude, period=1.0, dt=0.02, duration=4.0, cycles=1.0):
     along = np.where(t < cycles * period, amplitude * np.sin(2 * math.pi * t / period), 0.0)
     return {
         "dt": dt,
-        "formula": f"along = {amplitude:g} sin(2 pi t/{period:g}) for t < {cycles * period:g} s, then 0,"
-        f" t = 0, {dt:g} s, .., {duration:g} s [m/s^2], {ROUNDED}",
+        "formula": f"along = {amplitude:g} sin(2 pi t/{period:g}) for t < {cycles * period:g} s,"
+        f" then 0, t = 0, {dt:g} s, .., {duration:g} s [m/s^2], {ROUNDED}",
         "along": rounded(along),
     }
 
@@ -208,13 +209,16 @@ MILLIMETER = 1e-3
 
 
 FLIES = (
-    "The ground falls away faster than the block: it flies, lands without rebound, and the impulse of friction at landing "
-    "is mu times that of landing."
+    "The ground falls away faster than the block: it flies, lands without rebound, and the impulse "
+    "of friction at landing is mu times that of landing."
 )
-CLIPPED = "The same, but the block never leaves the ground: without normal force it slides without friction."
+CLIPPED = (
+    "The same, but the block never leaves the ground: without normal force it slides without "
+    "friction."
+)
 MISSES = (
-    "A push against the motion brakes the block. Because it also moves across at 1e-{} m/s, it just misses the rest, and "
-    "turns round."
+    "A push against the motion brakes the block. Because it also moves across at 1e-{} m/s, it "
+    "just misses the rest, and turns round."
 )
 
 
@@ -636,8 +640,8 @@ def listed():
     yield (
         STRUCTURES,
         "slope-coupled",
-        "A soil column of one mode slides itself, downhill only.",
-        column(0.1, 1, 20.0, 150.0, 0.1),
+        "A soil column of three modes slides itself, downhill only.",
+        column(0.1, 3, 20.0, 150.0, 0.1),
         burst(),
         {},
     )
@@ -707,8 +711,8 @@ def sine_cycle(times_uplift):
     along = rounded([*n, *np.zeros(310)])
     return {
         "dt": 0.0157,
-        "formula": f"along = -{times_uplift:g} 0.2 g sin(2 pi m/40) for m < 40, then 0, m = 0 .. 350, "
-        f"dt = 0.0157 s [m/s^2], {ROUNDED}",
+        "formula": f"along = -{times_uplift:g} 0.2 g sin(2 pi m/40) for m < 40, then 0, "
+        f"m = 0 .. 350, dt = 0.0157 s [m/s^2], {ROUNDED}",
         "along": along,
     }
 
@@ -720,8 +724,8 @@ def pulse_then_sine():
     )
     return {
         "dt": 0.02,
-        "formula": "along = -3 sin(2 pi t) for t < 0.5 s, 0.49 sin(8 t) for t > 2 s, 0 between, t = 0, 0.02 s, .., "
-        f"20 s [m/s^2], {ROUNDED}",
+        "formula": "along = -3 sin(2 pi t) for t < 0.5 s, 0.49 sin(8 t) for t > 2 s, 0 between, "
+        f"t = 0, 0.02 s, .., 20 s [m/s^2], {ROUNDED}",
         "along": rounded(along),
     }
 
@@ -745,7 +749,7 @@ def braking():
 
 
 def ring_down():
-    """Each half swing loses 2 mu g/w^2 of the amplitude, until the spring is weaker than friction."""
+    """Each half swing loses 2 mu g/w^2, until the spring is weaker than friction."""
     arb = independent.arb
     step = arb(0.05) * arb(G) / 25
     x, side = arb(0.3), 1
@@ -761,7 +765,10 @@ def released():
     arb = independent.arb
     p, alpha, r = arb(2), arb(0.2), arb(0.9)
     phi, left, side = arb(0.1) / alpha, 30 * arb(0.1), 1
-    acosh = lambda one: (one + (one * one - 1).sqrt()).log()
+
+    def acosh(one):
+        return (one + (one * one - 1).sqrt()).log()
+
     quarter = acosh(1 / (1 - phi)) / p
     begun = True
     while left > quarter:
@@ -831,8 +838,9 @@ def make(entry):
         float(abs(independent.mid(a - b))) for q in first for a, b in zip(first[q], again[q])
     )
     uncertain = more.get("uncertain", 1e-12)
-    still = (
-        (group == STICK and name != "stick-after-slip") or name in ("isolated-stuck", "rocking-stays")
+    still = (group == STICK and name != "stick-after-slip") or name in (
+        "isolated-stuck",
+        "rocking-stays",
     )
     answers = {}
     for quantity, values in first.items():
@@ -842,8 +850,8 @@ def make(entry):
             "unit": UNITS.get(quantity, "1: to the right, -1: to the left, 0: stands"),
         }
     origin = (
-        "referee/independent.py: Taylor series in 60 digits with events, twice with other orders and steps, which "
-        f"differ by {own_spread:.0e}"
+        "referee/independent.py: Taylor series in 60 digits with events, twice with other orders "
+        f"and steps, which differ by {own_spread:.0e}"
     )
     if "closed" in more:
         final = "final_rotation" if "final_rotation" in first else "final_displacement"
@@ -879,7 +887,8 @@ def make(entry):
                 lines.append(f"  {json.dumps(key)}: {json.dumps(value)}")
         (FOLDER / f"{name}.json").write_text("{\n" + ",\n".join(lines) + "\n}\n")
     shown = {q: [float(v) for v in a["value"]] for q, a in answers.items()}
-    return f"{name:24} {time.time() - began:5.1f} s  self {own_spread:.0e}  library {worst:.0e} of {scale:g} {shown}{verdict}"
+    said = f"{name:24} {time.time() - began:5.1f} s  self {own_spread:.0e}  library {worst:.0e}"
+    return f"{said} of {scale:g} {shown}{verdict}"
 
 
 def main() -> None:

@@ -96,7 +96,7 @@ class Slider(Model):
         radius = system.get("pendulum_radius")
         self.radius = None if radius is None else number(radius)
         stops = system.get("stops")
-        self.gap = None if stops is None else number(stops["gap"])
+        self.gap: Any = None if stops is None else number(stops["gap"])
         self.restitution = number(stops["restitution"]) if stops else None
         self.off = "flight" if system.get("contact", "flight") == "flight" else "free"
 
@@ -313,7 +313,7 @@ class Series(Model):
         still = state[0] * 0
         if mode == "stuck":
             return [still] * len(state)
-        s, moving = mode
+        _s, moving = mode
         total = sum((self.parts[k][0] for k in moving), self.on.number(0.0))
         v = state[1]
         rates = [v, -load[0] - (load[2] + self.g) * self.ratio(mode, state)]

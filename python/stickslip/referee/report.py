@@ -108,11 +108,11 @@ def table(found: Found) -> str:
         "| tool | " + " | ".join(f"{group} ({counts[group]})" for group in shown) + " | time |",
         "|---" * (len(shown) + 2) + "|",
     ]
-    for tool, by_class in found.items():
+    for name, by_class in found.items():
         times = [t for group in shown for one in by_class[group][-1:] for t in one.seconds]
         spent = f"{1e3 * median(times):.3g} ms" if times else "-"
         cells = " | ".join(cell(by_class[group]) for group in shown)
-        lines.append(f"| {tool} | {cells} | {spent} |")
+        lines.append(f"| {name} | {cells} | {spent} |")
     return "\n".join(lines)
 
 

@@ -1,7 +1,7 @@
 """Box2D: sequential impulses in two dimensions, in single precision.
 
-A block on one axis lies on the ground under its weight. In the plane, seen from above, friction is a
-friction joint with a largest force.
+A block on one axis lies on the ground under its weight. In the plane, seen from above, friction
+is a friction joint with a largest force.
 """
 
 from __future__ import annotations

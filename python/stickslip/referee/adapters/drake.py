@@ -22,7 +22,7 @@ def solve(problem: Problem, cost: int) -> Answers:
 
 def build(drake: Any, body: Body) -> Advance:
     builder = drake.DiagramBuilder()
-    plant, scene = drake.AddMultibodyPlantSceneGraph(builder, body.step)
+    plant, _scene = drake.AddMultibodyPlantSceneGraph(builder, body.step)
     plant.set_discrete_contact_approximation(drake.DiscreteContactApproximation.kLagged)
     plant.mutable_gravity_field().set_gravity_vector([0, 0, 0])
     plant.set_stiction_tolerance(1e-7)  # [m/s]; by default a block at rest creeps at 1e-3

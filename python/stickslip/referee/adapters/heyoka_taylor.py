@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import Any
 
 from .. import event_loop
@@ -16,7 +17,7 @@ TOLERANCES = (1e-5, 1e-9, 1e-16)
 
 
 def solve(problem: Problem, cost: int) -> Answers:
-    import heyoka as hy
+    hy: Any = import_module(MODULE)
 
     if problem.kind == "slider" and problem.system["friction"]["kind"] == "series":
         raise NotExpressibleError("guards that depend on where each element stands")

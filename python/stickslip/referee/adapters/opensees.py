@@ -44,9 +44,9 @@ def solve(problem: Problem, cost: int) -> Answers:
         if problem.kind in ("isolated", "floor"):
             return structure(ops, problem, steps, yields)
         plain = problem.kind == "slider" and friction["kind"] == "coulomb"
-        if plain and not (problem.has("vertical") or "pendulum_radius" in system):
-            if not system.get("slope_degrees"):
-                return spring_and_slip(ops, problem, steps, yields)
+        level = not ("pendulum_radius" in system or system.get("slope_degrees"))
+        if plain and level and not problem.has("vertical"):
+            return spring_and_slip(ops, problem, steps, yields)
         if friction.get("one_way") or "mu_backward" in friction:
             raise NotExpressibleError(
                 "friction that depends on the direction, with vertical motion"

@@ -64,12 +64,13 @@ def slider_of(system: Any) -> ss.Slider:
 
 
 def motion_of(problem: Problem) -> ss.GroundMotion:
-    components = {
-        name: problem.component(name)
-        for name in ("transverse", "vertical")
-        if problem.has(name) or (name == "transverse" and problem.kind == "planar")
-    }
-    return ss.GroundMotion(problem.component("along"), dt=problem.dt, **components)  # type: ignore[arg-type]
+    across = problem.kind == "planar"
+    return ss.GroundMotion(
+        problem.component("along"),
+        dt=problem.dt,
+        transverse=problem.component("transverse") if across else None,
+        vertical=problem.component("vertical") if problem.has("vertical") else None,
+    )
 
 
 def system_of(problem: Problem) -> ss.IsolatedStructure | ss.EquipmentOnFloor | ss.FlexibleSlope:

@@ -1,8 +1,9 @@
-"""SciPy's `solve_ivp`, with an event for each end of a slip, one segment of the record at a time."""
+"""SciPy's `solve_ivp` with events, one segment of the record at a time."""
 
 from __future__ import annotations
 
 import math
+from importlib import import_module
 from typing import Any
 
 from .. import event_loop
@@ -21,7 +22,7 @@ def exponential(number: float) -> float:
 
 
 def solve(problem: Problem, cost: int) -> Answers:
-    from scipy.integrate import solve_ivp
+    solve_ivp: Any = import_module(MODULE).solve_ivp
 
     method, rtol, crawl = SETTINGS[cost]
     numbers = Numbers(
