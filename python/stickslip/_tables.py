@@ -288,8 +288,8 @@ def _results(response: Response | PlanarResponse) -> dict[str, Any]:
 
 def json_text(document: Any) -> str:
     """A document as JSON: exact doubles, arrays as lists, null for NaN and infinity."""
-    if isinstance(document, np.ndarray) and document.ndim == 1:
-        if document.dtype == np.float64:
+    if isinstance(document, np.ndarray) and document.ndim < 2:
+        if document.ndim == 1 and document.dtype == np.float64:
             return number_list(document)
         document = document.tolist()
     if isinstance(document, float) and not math.isfinite(document):

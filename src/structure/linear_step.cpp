@@ -286,6 +286,7 @@ LinearMove::LinearMove(std::shared_ptr<const LinearStep> step)
 
 void LinearMove::begin(const StructureState& state, double n_start, double n_end, double friction) {
   const Index n = step_->modes(), m = step_->states();
+  displacement_ = state.displacement;
   double *to = from_.data(), *beside = beside_.data();
   const double *y = state.modal_displacement.data(), *rate = state.modal_velocity.data();
   const double *by_n = step_->steady_.data(), *by_friction = by_n + n;
@@ -334,10 +335,10 @@ void LinearMove::expand(const ModalInterface& of, const std::function<void(const
   const double h = step_->duration(), friction = step_->sliding() ? from_[m + 2] : 0;
   StructureState state{.modal_displacement = values(from_.head(n)), .modal_velocity = values(from_.segment(n, n))};
   if (step_->sliding()) {
-    state.displacement = from_[2 * n];
     state.velocity = from_[2 * n + 1];
     state.mode = state.velocity > 0 ? Mode::forward : Mode::backward;
   }
+  state.displacement = displacement_;
   const GroundLoad load{h, from_[m], from_[m] + from_[m + 1]};
   const double s = static_cast<double>(static_cast<int>(state.mode));
   Expansion expansion(of, h);

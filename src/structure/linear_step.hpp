@@ -102,6 +102,7 @@ class LinearMove {
   Eigen::VectorXd from_, beside_, to_;  // the vector, magnitudes of it beside a steady motion, and the state at the end
   Eigen::VectorXd ends_, apart_;        // of what is watched
   mutable Eigen::VectorXd chord_ends_{}, chord_apart_{};
+  double displacement_ = 0;  // at the start
   double change_ = 0;
 };
 

@@ -59,8 +59,8 @@ void StructureRecorder::follow(const Expansion& motion, Mode mode) {
 }
 
 bool StructureRecorder::pass(const LinearMove& move, const StructureState& from, double level) {
-  if (loops_) return false;
   if (floors_) floors_->include(move);
+  if (loops_) move.expand(of_, [&](const Expansion& motion) { draw(motion, from.mode); });
   count_work();
   if (!balance_) {
     const auto [kinetic, elastic] = energy_of(of_, from);

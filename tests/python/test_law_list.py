@@ -20,6 +20,7 @@ EVERYWHERE = {
     "include/stickslip/friction/laws.hpp",  # the list
     "python/stickslip/__init__.py",
     "python/stickslip/_core.pyi",
+    "python/stickslip/referee/adapters/own.py",  # the laws of the referee's problems
     "web/bindings.cpp",  # the page offers some of the laws, by hand
     "web/page/settings.js",
     "web/page/library.js",

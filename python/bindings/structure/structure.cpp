@@ -974,7 +974,6 @@ Needs matplotlib (`pip install stickslip[plot]`). Takes `figure`, a matplotlib F
           "_curve",
           [](const Self& r) {
             StructureIntegrateOptions options = r.options;
-            options.floors = false;
             options.loops = true;
             const std::vector<InterfacePoint> points = integrate_with(r.system, r.motion, options).loops;
             py::dict layout;

@@ -70,7 +70,11 @@ def show(tool: dict[str, Any], known: dict[str, Any]) -> None:
         if "answers" in one:
             said = f"error {problem.error(one['answers']):.1e} in {one['seconds']:.3g} s"
         else:
-            said = one.get("failed") or f"not expressible: {one['not_expressible']}"
+            said = one.get("failed") or (
+                f"not tried: {one['not_tried']}"
+                if "not_tried" in one
+                else f"not expressible: {one['not_expressible']}"
+            )
         print(f"{tool['tool']}, {one['cost']}: {problem.id}: {said}")
     print()
 

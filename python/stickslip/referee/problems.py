@@ -26,6 +26,10 @@ class NotExpressibleError(Exception):
     """A tool has no means to state a problem. The message names what it lacks."""
 
 
+class NotTriedError(Exception):
+    """An adapter does not build the system of a problem, though its tool may be able to."""
+
+
 @dataclass(frozen=True)
 class Asked:
     """One quantity that a problem asks for."""

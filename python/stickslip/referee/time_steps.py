@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from .problems import Answers, NotExpressibleError, Problem
+from .problems import Answers, NotExpressibleError, NotTriedError, Problem
 
 Advance = Callable[[float, float, float], tuple[float, float, float, float]]
 """Applies (along, transverse, upward) forces for a step; returns x, y, vx, vy after it."""
@@ -51,8 +51,9 @@ def march(
     """
     system = problem.system
     if problem.kind not in ("slider", "planar"):
-        what = {"rocking": "an impact law and small angles that are given"}
-        raise NotExpressibleError(what.get(problem.kind, "this adapter builds single blocks"))
+        if problem.kind == "rocking":
+            raise NotExpressibleError("an impact law and small angles that are given")
+        raise NotTriedError("structures of several masses")
     friction = system["friction"]
     if friction["kind"] != "coulomb":
         raise NotExpressibleError("friction other than Coulomb's")

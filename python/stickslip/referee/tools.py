@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from importlib import import_module, metadata
 from typing import Protocol, cast
 
-from .problems import Answers, NotExpressibleError, Problem
+from .problems import Answers, NotExpressibleError, NotTriedError, Problem
 
 MODULES = (
     "own",
@@ -76,6 +76,8 @@ def run(adapter: Adapter, problem: Problem, cost: int) -> Result:
         one["answers"] = answers
     except NotExpressibleError as reason:
         one["not_expressible"] = str(reason)
+    except NotTriedError as reason:
+        one["not_tried"] = str(reason)
     except (ArithmeticError, RuntimeError, ValueError) as error:
         one["failed"] = f"{type(error).__name__}: {error}"
     return one

@@ -7,7 +7,7 @@ from typing import Any
 
 from .. import event_loop
 from ..equations import Load, Model, Numbers, State
-from ..problems import Answers, NotExpressibleError, Problem
+from ..problems import Answers, NotTriedError, Problem
 
 NAME = "heyoka.py"
 PURPOSE = "ordinary differential equations by Taylor series; the user writes equations and events"
@@ -20,7 +20,7 @@ def solve(problem: Problem, cost: int) -> Answers:
     hy: Any = import_module(MODULE)
 
     if problem.kind == "slider" and problem.system["friction"]["kind"] == "series":
-        raise NotExpressibleError("guards that depend on where each element stands")
+        raise NotTriedError("guards that depend on where each element stands")
     numbers = Numbers(crawl=1e-7 if cost else 1e-5, speed=1e-6)
     symbolic = Numbers(
         number=lambda one: one, value=lambda one: one, exp=hy.exp, sqrt=hy.sqrt, crawl=numbers.crawl

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from importlib import import_module
 from typing import Any
 
-from ..problems import Answers, NotExpressibleError, Problem
+from ..problems import Answers, NotExpressibleError, NotTriedError, Problem
 
 NAME = "OpenSees"
 PURPOSE = "structures and soils in earthquakes, by finite elements; a stick is a stiff spring"
@@ -28,11 +28,11 @@ def solve(problem: Problem, cost: int) -> Answers:
     if friction["kind"] == "static_kinetic" or friction.get("exponent") == 2:
         raise NotExpressibleError("static friction above kinetic")
     if friction["kind"] == "series":
-        raise NotExpressibleError("this adapter builds no bearings of several surfaces")
+        raise NotTriedError("bearings of several surfaces")
     if "stops" in system:
         raise NotExpressibleError("stops of a given restitution")
     if problem.start.get("velocity") and problem.kind != "slider" and problem.kind != "planar":
-        raise NotExpressibleError("start")
+        raise NotTriedError("a structure that starts in motion")
     if system.get("decoupled"):
         raise NotExpressibleError("a structure that does not feel the slider")
     if system.get("contact") == "clipped":
@@ -98,6 +98,10 @@ def slip_material(ops: Any, tag: int, friction: Any, g: float, mass: float, yiel
     ops.uniaxialMaterial("ElasticPP", tag, stiffness, yields, -backward)
 
 
+def min_mu(friction: Any) -> float:
+    return float(min(friction["mu"], friction.get("mu_backward", friction["mu"])))
+
+
 def path(ops: Any, tag: int, dt: float, values: Sequence[float]) -> None:
     ops.timeSeries("Path", tag, "-dt", dt, "-values", *values)
 
@@ -119,7 +123,20 @@ def spring_and_slip(ops: Any, problem: Problem, steps: int, yields: float) -> An
     # A start away from the origin: the slip spring is not stretched there, so that the spring's
     # pull at the start is a load.
     pull = stiffness * x
-    path(ops, 1, problem.dt, [-n - pull for n in problem.component("along")])
+    loads = [-n - pull for n in problem.component("along")]
+    first = 0.0
+    if "velocity" not in problem.start and abs(loads[0]) < system["gravity"] * min_mu(
+        system["friction"]
+    ):
+        # The load at the start acts at rest: if it came suddenly, the elastic stick would ring.
+        first = loads[0]
+        ops.timeSeries("Linear", 9)
+        ops.pattern("Plain", 9, 9)
+        ops.load(2, first)
+        prepare(ops, "Static", "LoadControl", 1.0)
+        ops.analyze(1)
+        ops.loadConst("-time", 0.0)
+    path(ops, 1, problem.dt, [load - first for load in loads])
     ops.pattern("Plain", 1, 1)
     ops.load(2, 1.0)
     if "velocity" in problem.start:
