@@ -503,8 +503,8 @@ ratio : float, optional
 Returns
 -------
 list of Estimate
-    N probabilities with their errors, which are numerical: the last change by the refinement of steps and grids, until
-    it is below `tolerance`, which is at least 0.005 here.
+    N probabilities with their errors, which are numerical: the last change by the refinement of steps and grids, and at
+    least 0.4 %. Refinement ends below `tolerance`, which is at least 0.005 here.
 
 Raises
 ------
@@ -513,7 +513,7 @@ ValueError
 
 Notes
 -----
-Takes 1 to 20 s under white noise, 20 s to some minutes under filtered noise; docs/transport.md compares it with
+Takes 1 to 20 s under white noise, 20 s to some minutes under filtered noise; docs/rocking.md compares it with
 simulation.)")
       .def("__repr__",
            [](const Transport& t) { return "Transport(tolerance=" + detail::shortest(t.tolerance()) + ")"; });

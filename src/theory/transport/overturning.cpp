@@ -211,7 +211,9 @@ std::vector<Estimate> overturning_probability(const SlenderBlock& block, const T
       const double fine = std::clamp(survival.at(times[i] / step), 0.0, 1.0), change = fine - coarse[i];
       const double value = level == 0 || problem.held() > 0 ? fine : std::clamp(fine + gain * change, 0.0, 1.0);
       const double moved = std::abs(value - found[i].value);
-      found[i] = {value, level < 2 ? std::max(moved, std::abs(change)) : std::max(moved, 0.3 * std::abs(change))};
+      // A change may vanish by chance: grids of these sizes differ by this part.
+      constexpr double least = 0.004;
+      found[i] = {value, std::max({moved, (level < 2 ? 1 : 0.3) * std::abs(change), least * value})};
       if (found[i].error > tolerance * std::max(value, 1e-5)) within = false;
       coarse[i] = fine;
     }
