@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any
 
 import numpy as np
@@ -65,12 +66,15 @@ def slider_of(system: Any) -> ss.Slider:
 
 def motion_of(problem: Problem) -> ss.GroundMotion:
     across = problem.kind == "planar"
-    return ss.GroundMotion(
-        problem.component("along"),
-        dt=problem.dt,
-        transverse=problem.component("transverse") if across else None,
-        vertical=problem.component("vertical") if problem.has("vertical") else None,
-    )
+    with warnings.catch_warnings():
+        # Loads that are held are no records: their baseline is meant.
+        warnings.simplefilter("ignore", ss.PlausibilityWarning)
+        return ss.GroundMotion(
+            problem.component("along"),
+            dt=problem.dt,
+            transverse=problem.component("transverse") if across else None,
+            vertical=problem.component("vertical") if problem.has("vertical") else None,
+        )
 
 
 def system_of(problem: Problem) -> ss.IsolatedStructure | ss.EquipmentOnFloor | ss.FlexibleSlope:
