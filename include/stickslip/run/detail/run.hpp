@@ -130,6 +130,8 @@ bool settle(const Slider& slider, State& state, Go&& go) {
   const Unrest unrest = slider.unrest(state);
   const double longest = unrest.endless ? 0 : 0x1p40;  // [s], about 35,000 years
   const double wn = unrest.natural_frequency;
+  // After many cycles what is left of the energy is that of the motion, and not of where it will rest [s].
+  const double many_cycles = wn > 0 ? std::max(8192.0, 400 / wn) : 8192;
   double scale = wn > 0 ? norm(state.velocity) / wn : 0;  // of the displacement [m]
   // Above that at rest without friction: where the spring holds the weight, or at the stop downhill.
   const auto energy = [&] {
@@ -157,8 +159,7 @@ bool settle(const Slider& slider, State& state, Go&& go) {
         return true;
       }
     }
-    // After many cycles only.
-    if (duration >= 8192 && before - energy() < before * (duration / longest)) break;
+    if (duration >= many_cycles && before - energy() < before * (duration / longest)) break;
   }
   throw ConvergenceError("without ground motion the slider does not come to rest: at " + name_of(state.displacement) +
                          " m it still moves at " + shortest(norm(state.velocity)) + " m/s, with a slip level of " +
