@@ -20,7 +20,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parent))
 import independent
 from stickslip.referee.adapters import own
-from stickslip.referee.problems import parse
+from stickslip.referee.problems import CLASSES, parse
 
 FOLDER = Path(__file__).parent / "problems"
 G = 9.80665
@@ -194,17 +194,7 @@ def triple(radii, mu, capacities):
     )
 
 
-STICK, RECORD, SPEED, VERTICAL, TWO, SPRINGS, STRUCTURES, ROCKING = (
-    "stick",
-    "one record",
-    "laws of the speed",
-    "vertical motion",
-    "two directions",
-    "springs, stops and bearings",
-    "structures",
-    "rocking",
-)
-GROUPS = (STICK, RECORD, SPEED, VERTICAL, TWO, SPRINGS, STRUCTURES, ROCKING)
+STICK, RECORD, SPEED, VERTICAL, TWO, SPRINGS, STRUCTURES, ROCKING = CLASSES
 MILLIMETER = 1e-3
 
 
@@ -897,7 +887,7 @@ def main() -> None:
     with Pool(2) as pool:
         for line in pool.imap(make, entries):
             print(line, flush=True)
-    for group in GROUPS:
+    for group in CLASSES:
         print(group, sum(e[0] == group for e in listed()))
 
 

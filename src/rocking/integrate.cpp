@@ -12,6 +12,7 @@
 
 #include "rocking/leg.hpp"
 #include "rocking/overturning.hpp"
+#include "rocking/run.hpp"
 #include "rocking/system.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/run/detail/event_log.hpp"
@@ -21,8 +22,6 @@
 namespace stickslip {
 namespace detail {
 namespace {
-
-constexpr double quarter_turn = std::numbers::pi / 2;  // the block lies on its side
 
 bool lies(const RockingState& state) noexcept { return std::abs(state.rotation) >= quarter_turn; }
 
@@ -138,21 +137,11 @@ class RockingRecorder final : public RockingSink, public EventLog<double>, publi
       const double r = one.kind == EventKind::impact ? block_.restitution() : 1;
       response.events.push_back({one.time, one.displacement, one.velocity, kind_of(one.kind), r * one.velocity});
     }
-    if (response.overturned == 0) return;
-    response.peak = quarter_turn;
-    response.peak_time = response.overturned_at;
-    response.peak_ratio = std::numeric_limits<double>::infinity();
+    finish_peak(response);
   }
 
  private:
-  void reach(double rotation, double time) {
-    const double size = std::abs(rotation);
-    response_.peak_ratio =
-        std::max(response_.peak_ratio, size / (rotation > 0 ? block_.alpha_right() : block_.alpha_left()));
-    if (!(size > response_.peak)) return;
-    response_.peak = size;
-    response_.peak_time = time;
-  }
+  void reach(double rotation, double time) { detail::reach(response_, block_, rotation, time); }
   void vary_by_impact(double time, const RockingState& state) {
     const double r = block_.restitution();
     const double other = state.rate > 0 ? block_.alpha_right() : -block_.alpha_left();  // it goes on with its rate
@@ -194,12 +183,7 @@ class RockingRun {
   const GroundMotion& motion() const noexcept { return motion_; }
   const RockingOptions& options() const noexcept { return options_; }
 
-  State start() const {
-    require(std::isfinite(options_.rotation) && std::abs(options_.rotation) < quarter_turn,
-            "integrate: rotation must be below pi/2 in magnitude", options_.rotation, "rad");
-    require(std::isfinite(options_.rate), "integrate: rate must be finite", options_.rate, "rad/s");
-    return State::at(options_.rotation, options_.rate);
-  }
+  State start() const { return start_of(options_); }
 
   Recorder recorder(const State& state, Response& response) const {
     response.rotation.resize(motion_.samples());
@@ -213,19 +197,20 @@ class RockingRun {
 
   void walk(State& state, Recorder& recorder, Response& response) const {
     const std::size_t count = motion_.segments();
-    Approach approach(block_);
+    LoadMaxima maxima;
     for (std::size_t i = 0; i < count; ++i) {
-      const RockingSegment ground = segment(i);
+      const RockingSegment ground = segment_of(motion_, i);
       if (is_stuck(state)) {
         const UpliftMargins first(block_, ground.n_start, ground.heavy_start),
             last(block_, ground.n_end, ground.heavy_end);
         if (std::max(std::max(first.right, first.left), std::max(last.right, last.left)) <= 0) {
-          approach.look(ground, recorder);
+          for (const double now : {load(ground.n_start, ground.heavy_start), load(ground.n_end, ground.heavy_end)})
+            maxima.look(now, [&](double margin) { recorder.decide(margin); });
           keep(i + 1, state, response);
           continue;
         }
       }
-      approach.forget();
+      maxima.forget();
       recorder.begin_segment(motion_.time(i), motion_.time(i + 1), ground, i);
       move(block_, ground, state, recorder);
       judge(i + 1, state, recorder);
@@ -237,9 +222,8 @@ class RockingRun {
 
   // Without ground motion a block falls where q = s theta' + p (s theta - alpha) is positive, and else comes to rest.
   double settle(State& state, Recorder& recorder, Response& response) const {
-    const std::size_t first = motion_.segments();
-    const double begin = motion_.time(first), step = motion_.last_step();
-    State sampled = state;
+    const double begin = motion_.time(motion_.segments());
+    const State at_end_of_motion = state;
     double time = begin;
     const double longest = 64 / block_.p();
     while (!is_stuck(state) && state.overturned == 0) {
@@ -252,7 +236,7 @@ class RockingRun {
       if (!(block_.restitution() < 1))
         throw ConvergenceError(
             "integrate: a block with a restitution of 1 never comes to rest; integrate it without settle");
-      const RockingSegment calm{longest, 0, 0, standard_gravity, standard_gravity, true};
+      const RockingSegment calm = calm_for(longest);
       recorder.begin_segment(time, time + longest, calm, {});
       move(block_, calm, state, recorder);
       time += longest;
@@ -260,17 +244,13 @@ class RockingRun {
     }
     const double end = std::max(begin, recorder.last_event());
     NoRockingSink none;
-    const RockingSegment calm{step, 0, 0, standard_gravity, standard_gravity};
-    for (std::size_t i = first; motion_.time(i) < end; ++i) {
-      if (i + 1 >= 10 * motion_.samples()) {
-        response.truncated = true;
-        break;
-      }
-      move(block_, calm, sampled, none);
-      if (!(motion_.time(i + 1) < end)) sampled = state;
-      response.rotation.push_back(sampled.rotation);
-      response.rate.push_back(sampled.rate);
-    }
+    keep_until(
+        end, motion_, at_end_of_motion, state, response,
+        [&](const RockingSegment& calm, State& one) { move(block_, calm, one, none); },
+        [&](const State& one) {
+          response.rotation.push_back(one.rotation);
+          response.rate.push_back(one.rate);
+        });
     return end;
   }
 
@@ -279,37 +259,9 @@ class RockingRun {
   void finish(const State& state, Response& response) const { response.state = state; }
 
  private:
-  // The relative distance of the load from the levels of uplift at its maxima at rest.
-  class Approach {
-   public:
-    explicit Approach(const SlenderBlock& block) : block_(block) {}
-
-    void look(const RockingSegment& ground, RockingRecorder& recorder) {
-      look(ground.n_start, ground.heavy_start, recorder);
-      look(ground.n_end, ground.heavy_end, recorder);
-    }
-    void forget() noexcept { last_ = rise_ = 0; }
-
-   private:
-    void look(double n, double heavy, RockingRecorder& recorder) {
-      const double load = std::max(-n / (block_.alpha_right() * heavy), n / (block_.alpha_left() * heavy));
-      if (load < last_ && rise_ > 0) recorder.decide(1 - last_);
-      if (!equal(load, last_)) rise_ = load - last_;
-      last_ = load;
-    }
-    const SlenderBlock& block_;
-    double last_ = 0, rise_ = 0;
-  };
-
-  RockingSegment segment(std::size_t i) const {
-    const Segment s = motion_.segment(i);
-    RockingSegment ground{s.duration, s.start, s.end, standard_gravity, standard_gravity};
-    if (motion_.has_vertical()) {
-      const bool held = motion_.interpolation() == Interpolation::constant;
-      ground.heavy_start += motion_.vertical()[i];
-      ground.heavy_end += motion_.vertical()[held ? i : i + 1];
-    }
-    return ground;
+  // Over the levels of uplift.
+  double load(double n, double heavy) const {
+    return std::max(-n / (block_.alpha_right() * heavy), n / (block_.alpha_left() * heavy));
   }
   void judge(std::size_t sample, State& state, Recorder& recorder) const {
     if (recorder.has_overturned()) return;
@@ -336,19 +288,14 @@ RockingResponse integrate(const SlenderBlock& block, const GroundMotion& motion,
 }
 
 void advance(const SlenderBlock& block, const RockingGround& segment, RockingState& state) {
-  for (const double value : {segment.duration, segment.start, segment.end, segment.vertical_start, segment.vertical_end,
-                             state.rotation, state.rate})
-    detail::require(std::isfinite(value), "advance: segment and state must be finite", value);
+  const detail::RockingSegment ground = detail::segment_of(segment, state);
   for (const double up : {segment.vertical_start, segment.vertical_end})
     detail::require(standard_gravity + up > 0,
                     "advance: the block leaves the ground, which a SlenderBlock cannot; g + a_z must be positive",
                     standard_gravity + up, "m/s^2");
   RockingState moved = state;
   detail::NoRockingSink none;
-  detail::move(block,
-               {segment.duration, segment.start, segment.end, standard_gravity + segment.vertical_start,
-                standard_gravity + segment.vertical_end},
-               moved, none);
+  detail::move(block, ground, moved, none);
   state = moved;
 }
 

@@ -10,6 +10,7 @@
 #include "rocking/overturning.hpp"
 #include "rocking/rigid_leg.hpp"
 #include "rocking/rigid_system.hpp"
+#include "rocking/run.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/rocking/integrate.hpp"
 #include "stickslip/run/detail/event_log.hpp"
@@ -118,10 +119,7 @@ class RigidRecorder final : public RigidSink, public EventLog<RockingEvent>, pub
       response.events.push_back(one.displacement);
       response.events.back().time = one.time;
     }
-    if (response.overturned == 0) return;
-    response.peak = std::numbers::pi / 2;
-    response.peak_time = response.overturned_at;
-    response.peak_ratio = std::numeric_limits<double>::infinity();
+    finish_peak(response);
   }
 
  private:
@@ -135,14 +133,7 @@ class RigidRecorder final : public RigidSink, public EventLog<RockingEvent>, pub
                    static_cast<std::int8_t>(side)},
                   {});
   }
-  void reach(double rotation, double time) {
-    const double size = std::abs(rotation);
-    response_.peak_ratio =
-        std::max(response_.peak_ratio, size / (rotation > 0 ? block_.alpha_right() : block_.alpha_left()));
-    if (!(size > response_.peak)) return;
-    response_.peak = size;
-    response_.peak_time = time;
-  }
+  void reach(double rotation, double time) { detail::reach(response_, block_, rotation, time); }
 
   const RockingBlock& block_;
   const Overturning* overturning_;  // null under vertical motion
@@ -169,12 +160,7 @@ class RigidRun {
   const GroundMotion& motion() const noexcept { return motion_; }
   const RockingOptions& options() const noexcept { return options_; }
 
-  State start() const {
-    require(std::isfinite(options_.rotation) && std::abs(options_.rotation) < std::numbers::pi / 2,
-            "integrate: rotation must be below pi/2 in magnitude", options_.rotation, "rad");
-    require(std::isfinite(options_.rate), "integrate: rate must be finite", options_.rate, "rad/s");
-    return State::at(options_.rotation, options_.rate);
-  }
+  State start() const { return start_of(options_); }
 
   Recorder recorder(const State& state, Response& response) const {
     for (std::vector<double>* history :
@@ -192,22 +178,18 @@ class RigidRun {
 
   void walk(State& state, Recorder& recorder, Response& response) const {
     const std::size_t count = motion_.segments();
-    double last = 0, rise = 0;  // of the load over what lifts or slides it, at rest
+    LoadMaxima maxima;
     for (std::size_t i = 0; i < count; ++i) {
-      const RockingSegment ground = segment(i);
+      const RockingSegment ground = segment_of(motion_, i);
       if (is_stuck(state)) {
         const double first = load(ground.n_start, ground.heavy_start), then = load(ground.n_end, ground.heavy_end);
         if (first <= 1 && then <= 1) {
-          for (const double now : {first, then}) {
-            if (now < last && rise > 0) recorder.decide(1 - last);
-            if (!equal(now, last)) rise = now - last;
-            last = now;
-          }
+          for (const double now : {first, then}) maxima.look(now, [&](double margin) { recorder.decide(margin); });
           keep(state, response);
           continue;
         }
       }
-      last = rise = 0;
+      maxima.forget();
       recorder.begin_segment(motion_.time(i), motion_.time(i + 1), ground, i);
       move(block_, ground, state, recorder);
       keep(state, response);
@@ -216,10 +198,8 @@ class RigidRun {
   }
 
   double settle(State& state, Recorder& recorder, Response& response) const {
-    const std::size_t first = motion_.segments();
-    const double begin = motion_.time(first), step = motion_.last_step(),
-                 longest = 64 / std::min(block_.p_right(), block_.p_left());
-    State sampled = state;
+    const double begin = motion_.time(motion_.segments()), longest = 64 / std::min(block_.p_right(), block_.p_left());
+    const State at_end_of_motion = state;
     double time = begin;
     for (int tries = 0; !is_stuck(state) && state.overturned == 0; ++tries) {
       if (tries > 10'000 || equal(block_.mu(), 0) || (equal(block_.lever_left(), 0) && equal(block_.lever_right(), 0)))
@@ -227,23 +207,17 @@ class RigidRun {
             "integrate: this block does not come to rest, because its impacts or its friction lose too little; "
             "integrate "
             "it without settle");
-      const RockingSegment calm{longest, 0, 0, standard_gravity, standard_gravity, true};
+      const RockingSegment calm = calm_for(longest);
       recorder.begin_segment(time, time + longest, calm, {});
       move(block_, calm, state, recorder);
       time += longest;
     }
     const double end = std::max(begin, recorder.last_event());
     NoRigidSink none;
-    const RockingSegment calm{step, 0, 0, standard_gravity, standard_gravity};
-    for (std::size_t i = first; motion_.time(i) < end; ++i) {
-      if (i + 1 >= 10 * motion_.samples()) {
-        response.truncated = true;
-        break;
-      }
-      move(block_, calm, sampled, none);
-      if (!(motion_.time(i + 1) < end)) sampled = state;
-      keep(sampled, response);
-    }
+    keep_until(
+        end, motion_, at_end_of_motion, state, response,
+        [&](const RockingSegment& calm, State& one) { move(block_, calm, one, none); },
+        [&](const State& one) { keep(one, response); });
     return end;
   }
 
@@ -260,16 +234,6 @@ class RigidRun {
     if (!(heavy > 0)) return never;
     const double most = std::min((n < 0 ? block_.right() : block_.left()) / block_.center_height(), block_.mu());
     return equal(n, 0) ? 0 : std::abs(n) / (most * heavy);
-  }
-  RockingSegment segment(std::size_t i) const {
-    const Segment s = motion_.segment(i);
-    RockingSegment ground{s.duration, s.start, s.end, standard_gravity, standard_gravity};
-    if (motion_.has_vertical()) {
-      const bool held = motion_.interpolation() == Interpolation::constant;
-      ground.heavy_start += motion_.vertical()[i];
-      ground.heavy_end += motion_.vertical()[held ? i : i + 1];
-    }
-    return ground;
   }
   void keep(const State& state, Response& response) const {
     response.rotation.push_back(state.rotation);
@@ -294,15 +258,10 @@ RockingResponse integrate(const RockingBlock& block, const GroundMotion& motion,
 }
 
 void advance(const RockingBlock& block, const RockingGround& segment, RockingState& state) {
-  for (const double value : {segment.duration, segment.start, segment.end, segment.vertical_start, segment.vertical_end,
-                             state.rotation, state.rate})
-    detail::require(std::isfinite(value), "advance: segment and state must be finite", value);
+  const detail::RockingSegment ground = detail::segment_of(segment, state);
   RockingState moved = state;
   detail::NoRigidSink none;
-  detail::move(block,
-               {segment.duration, segment.start, segment.end, standard_gravity + segment.vertical_start,
-                standard_gravity + segment.vertical_end},
-               moved, none);
+  detail::move(block, ground, moved, none);
   state = moved;
 }
 

@@ -1,0 +1,109 @@
+// What runs of slender and of rigid blocks have in common.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+
+#include "rocking/leg.hpp"
+#include "stickslip/base/equal.hpp"
+#include "stickslip/error.hpp"
+#include "stickslip/ground/ground_motion.hpp"
+#include "stickslip/rocking/integrate.hpp"
+#include "stickslip/rocking/response.hpp"
+#include "stickslip/rocking/state.hpp"
+#include "stickslip/units.hpp"
+
+namespace stickslip::detail {
+
+constexpr double quarter_turn = std::numbers::pi / 2;  // the block lies on its side
+
+inline RockingState start_of(const RockingOptions& options) {
+  require(std::isfinite(options.rotation) && std::abs(options.rotation) < quarter_turn,
+          "integrate: rotation must be below pi/2 in magnitude", options.rotation, "rad");
+  require(std::isfinite(options.rate), "integrate: rate must be finite", options.rate, "rad/s");
+  return RockingState::at(options.rotation, options.rate);
+}
+
+inline RockingSegment segment_of(const GroundMotion& motion, std::size_t i) {
+  const Segment s = motion.segment(i);
+  RockingSegment ground{s.duration, s.start, s.end, standard_gravity, standard_gravity};
+  if (motion.has_vertical()) {
+    const bool held = motion.interpolation() == Interpolation::constant;
+    ground.heavy_start += motion.vertical()[i];
+    ground.heavy_end += motion.vertical()[held ? i : i + 1];
+  }
+  return ground;
+}
+/// Of a user's own loop.
+/// @throws std::invalid_argument  a number that is not finite
+inline RockingSegment segment_of(const RockingGround& segment, const RockingState& state) {
+  for (const double value : {segment.duration, segment.start, segment.end, segment.vertical_start, segment.vertical_end,
+                             state.rotation, state.rate})
+    require(std::isfinite(value), "advance: segment and state must be finite", value);
+  return {segment.duration, segment.start, segment.end, standard_gravity + segment.vertical_start,
+          standard_gravity + segment.vertical_end};
+}
+
+/// Without ground motion, which never comes back.
+constexpr RockingSegment calm_for(double duration) noexcept {
+  return {duration, 0, 0, standard_gravity, standard_gravity, true};
+}
+
+/// Keeps samples after the end of a motion, up to the first at or after a time, but at most ten times as many as the motion
+/// has.
+/// @param sampled  the state at the end of the motion
+/// @param at_end   that at the time
+/// @param move     `move(segment, state)`
+/// @param keep     `keep(state)`
+template <class Move, class Keep>
+void keep_until(double end, const GroundMotion& motion, RockingState sampled, const RockingState& at_end,
+                RockingResponse& response, Move&& move, Keep&& keep) {
+  const RockingSegment calm{motion.last_step(), 0, 0, standard_gravity, standard_gravity};
+  for (std::size_t i = motion.segments(); motion.time(i) < end; ++i) {
+    if (i + 1 >= 10 * motion.samples()) {
+      response.truncated = true;
+      return;
+    }
+    move(calm, sampled);
+    if (!(motion.time(i + 1) < end)) sampled = at_end;
+    keep(sampled);
+  }
+}
+
+/// Adds a rotation to the peaks.
+template <class Block>
+void reach(RockingResponse& response, const Block& block, double rotation, double time) {
+  const double size = std::abs(rotation);
+  response.peak_ratio = std::max(response.peak_ratio, size / (rotation > 0 ? block.alpha_right() : block.alpha_left()));
+  if (!(size > response.peak)) return;
+  response.peak = size;
+  response.peak_time = time;
+}
+/// The peaks of a block that has overturned are those of its side on the ground.
+inline void finish_peak(RockingResponse& response) {
+  if (response.overturned == 0) return;
+  response.peak = quarter_turn;
+  response.peak_time = response.overturned_at;
+  response.peak_ratio = std::numeric_limits<double>::infinity();
+}
+
+/// The maxima at rest of the load over the level at which a block leaves it.
+class LoadMaxima {
+ public:
+  /// @param decide  `decide(margin)`, the distance of a maximum from 1
+  template <class Decide>
+  void look(double load, Decide&& decide) {
+    if (load < last_ && rise_ > 0) decide(1 - last_);
+    if (!equal(load, last_)) rise_ = load - last_;
+    last_ = load;
+  }
+  void forget() noexcept { last_ = rise_ = 0; }
+
+ private:
+  double last_ = 0, rise_ = 0;
+};
+
+}  // namespace stickslip::detail
