@@ -1,0 +1,47 @@
+// Integrate the motion of a cart.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "stickslip/carts/cart.hpp"
+#include "stickslip/carts/response.hpp"
+#include "stickslip/carts/state.hpp"
+#include "stickslip/ground/ground_motion.hpp"
+
+namespace stickslip {
+
+struct CartOptions {
+  double yaw = 0;             ///< at the start [rad], finite
+  Vector2 velocity{};         ///< of the center of mass at the start [m/s], finite
+  double yaw_rate = 0;        ///< at the start [rad/s], finite
+  bool settle = false;        ///< continue under zero ground acceleration after the last sample until the cart rests
+  std::vector<Wall> walls{};  ///< whose clearance is asked
+  std::function<void()> progress{};  ///< called about once per second or more often; may throw to stop the work
+};
+
+/// Integrate the motion of a cart under a ground motion, with every slip, stick, reversal and rest of its wheels; see Cart
+/// for the equations. Both horizontal components act, and the vertical one on N.
+/// @throws std::invalid_argument  a start that is not finite; a wall without direction; with `settle`, a cart none of whose
+///                                supports resists rolling, which may roll for ever
+/// @throws ConvergenceError       with `settle`, a cart that does not come to rest; more events than 1,000,000 plus eight
+///                                per segment
+/// Between events the motion is a power series, and events are roots of polynomials: exact to round-off, which grows while
+/// casters swivel against their motion. A response under other ground, or with another mass, is another path: answer in
+/// distributions over the headings.
+CartResponse integrate(const Cart& cart, const GroundMotion& motion, const CartOptions& options = {});
+
+/// Ground acceleration over a segment, linear from start to end.
+struct CartGround {
+  double duration;                              ///< [s], finite, at least 0
+  Vector2 start, end;                           ///< horizontal [m/s^2], finite
+  double vertical_start = 0, vertical_end = 0;  ///< upward, a_z [m/s^2], finite
+};
+
+/// Integrate over one segment, for codes with their own time loop.
+/// @param state  replaced by the state at the end; unchanged on an error
+/// @throws std::invalid_argument  a number that is not finite; other numbers of headings or lines than the cart has
+/// @throws ConvergenceError       events faster than the time can be resolved
+void advance(const Cart& cart, const CartGround& segment, CartState& state);
+
+}  // namespace stickslip

@@ -1,0 +1,201 @@
+#include "stickslip/carts/integrate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "carts/model.hpp"
+#include "carts/recorder.hpp"
+#include "carts/system.hpp"
+#include "stickslip/error.hpp"
+#include "stickslip/run/detail/run.hpp"
+#include "stickslip/sliding/detail/loop.hpp"
+#include "stickslip/units.hpp"
+
+namespace stickslip {
+namespace detail {
+namespace {
+
+CartSegment cart_segment(const GroundMotion& motion, std::size_t i) {
+  const bool held = motion.interpolation() == Interpolation::constant;
+  const Segment s = motion.segment(i);
+  CartSegment ground{s.duration, {s.start, 0}, {s.end, 0}, standard_gravity, standard_gravity};
+  if (motion.has_transverse()) {
+    ground.start.transverse = motion.transverse()[i];
+    ground.end.transverse = motion.transverse()[held ? i : i + 1];
+  }
+  if (motion.has_vertical()) {
+    ground.heavy_start += motion.vertical()[i];
+    ground.heavy_end += motion.vertical()[held ? i : i + 1];
+  }
+  return ground;
+}
+
+void move(CartWorkspace& work, const CartSegment& ground, CartState& state, CartSink& sink) {
+  if (!(ground.duration > 0)) return;
+  CartSystem system(work, ground, state);
+  stickslip::detail::advance(system, sink);
+}
+
+class CartRun {
+ public:
+  using State = CartState;
+  using Response = CartResponse;
+  using Recorder = CartRecorder;
+
+  CartRun(const CartModel& model, CartWorkspace& work, const GroundMotion& motion, const CartOptions& options)
+      : model_(model), work_(work), motion_(motion), options_(options) {}
+
+  const GroundMotion& motion() const noexcept { return motion_; }
+  const CartOptions& options() const noexcept { return options_; }
+
+  State start() const {
+    const auto finite = [](double value, const char* name, const char* unit) {
+      require(std::isfinite(value), std::string("integrate: ") + name + " must be finite", value, unit);
+    };
+    finite(options_.yaw, "yaw", "rad");
+    finite(options_.velocity.axis, "velocity", "m/s");
+    finite(options_.velocity.transverse, "velocity", "m/s");
+    finite(options_.yaw_rate, "yaw_rate", "rad/s");
+    for (const Wall& wall : options_.walls) {
+      for (const double value : {wall.point.axis, wall.point.transverse}) finite(value, "the point of a wall", "m");
+      const double length = norm(wall.direction);
+      require(std::isfinite(length) && length > 0, "integrate: the direction of a wall must be finite and not zero",
+              length);
+    }
+    if (options_.settle &&
+        std::none_of(model_.lines.begin(), model_.lines.end(), [](const CartModel::Line& line) { return line.along; }))
+      throw std::invalid_argument(
+          "integrate: without rolling resistance this cart may roll for ever: give its wheels a rolling_mu, or "
+          "integrate it "
+          "without settle");
+    State state = model_.start();
+    state.yaw = options_.yaw;
+    state.velocity = options_.velocity;
+    state.yaw_rate = options_.yaw_rate;
+    if (norm(state.velocity) > 0 || !equal(state.yaw_rate, 0)) state.mode = CartMode::moving;
+    return state;
+  }
+
+  Recorder recorder(const State& state, Response& response) const {
+    const std::size_t samples = motion_.samples();
+    response.displacement.reserve(samples);
+    response.velocity.reserve(samples);
+    response.yaw.reserve(samples);
+    response.yaw_rate.reserve(samples);
+    response.headings.reserve(samples * model_.casters);
+    keep(state, response);
+    if (motion_.has_transverse()) response.components += " + transverse";
+    if (motion_.has_vertical()) response.components += " + vertical";
+    return {model_, motion_.time(0), state, options_, max_events(motion_.segments()), response};
+  }
+
+  void walk(State& state, Recorder& recorder, Response& response) const {
+    const std::size_t count = motion_.segments();
+    for (std::size_t i = 0; i < count; ++i) {
+      recorder.begin_segment(motion_.time(i), motion_.time(i + 1));
+      move(work_, cart_segment(motion_, i), state, recorder);
+      keep(state, response);
+      if (i % Recorder::work_per_report == 0) recorder.report_progress();
+    }
+  }
+
+  double settle(State& state, Recorder& recorder, Response& response) const {
+    const double begin = motion_.time(motion_.segments());
+    State sampled = state;
+    double time = begin;
+    for (double duration = 1; !is_stuck(state); duration *= 2) {
+      if (duration > 0x1p20)
+        throw ConvergenceError("integrate: without ground motion the cart does not come to rest: after " +
+                               shortest(time - begin) + " s it still moves at " + shortest(norm(state.velocity)) +
+                               " m/s; integrate it without settle");
+      recorder.begin_segment(time, time + duration);
+      move(work_, calm_for(duration), state, recorder);
+      time += duration;
+    }
+    const double end = std::max(begin, recorder.last_event());
+    CartWorkspace work(model_);
+    NoCartSink none;
+    for (std::size_t i = motion_.segments(); motion_.time(i) < end; ++i) {
+      if (i + 1 >= 10 * motion_.samples()) {
+        response.truncated = true;
+        break;
+      }
+      move(work, calm_for(motion_.last_step()), sampled, none);
+      if (!(motion_.time(i + 1) < end)) sampled = state;
+      keep(sampled, response);
+    }
+    return end;
+  }
+
+  double kinetic(const State& state) const {
+    const double turns = model_.gyration * state.yaw_rate;
+    return (dot(state.velocity, state.velocity) + turns * turns) / 2;
+  }
+  double elastic(const State&) const { return 0; }
+  void finish(State&& state, Response& response) const {
+    response.residual = state.displacement;
+    response.residual_yaw = state.yaw - options_.yaw;
+    response.state = std::move(state);
+  }
+
+ private:
+  static CartSegment calm_for(double duration) noexcept {
+    return {duration, {}, {}, standard_gravity, standard_gravity};
+  }
+  void keep(const State& state, Response& response) const {
+    response.displacement.push_back(state.displacement);
+    response.velocity.push_back(state.velocity);
+    response.yaw.push_back(state.yaw);
+    response.yaw_rate.push_back(state.yaw_rate);
+    response.headings.insert(response.headings.end(), state.headings.begin(), state.headings.end());
+  }
+
+  const CartModel& model_;
+  CartWorkspace& work_;
+  const GroundMotion& motion_;
+  const CartOptions& options_;
+};
+
+}  // namespace
+}  // namespace detail
+
+CartResponse integrate(const Cart& cart, const GroundMotion& motion, const CartOptions& options) {
+  const detail::CartModel model(cart);
+  detail::CartWorkspace work(model);
+  return detail::integrate_run(detail::CartRun(model, work, motion, options), {});
+}
+
+void advance(const Cart& cart, const CartGround& segment, CartState& state) {
+  const detail::CartModel model(cart);
+  for (const double value :
+       {segment.duration, segment.start.axis, segment.start.transverse, segment.end.axis, segment.end.transverse,
+        segment.vertical_start, segment.vertical_end, state.displacement.axis, state.displacement.transverse, state.yaw,
+        state.velocity.axis, state.velocity.transverse, state.yaw_rate})
+    detail::require(std::isfinite(value), "advance: segment and state must be finite", value);
+  detail::require(segment.duration >= 0, "advance: duration must be at least 0", segment.duration, "s");
+  CartState moved = state;
+  if (moved.headings.empty()) moved.headings = model.headings;
+  detail::require(
+      moved.headings.size() == model.casters,
+      "advance: the state must have as many headings as the cart has swivel casters, " + std::to_string(model.casters),
+      static_cast<double>(moved.headings.size()));
+  for (const double value : moved.headings)
+    detail::require(std::isfinite(value), "advance: headings must be finite", value, "rad");
+  detail::require(moved.lines.empty() || moved.lines.size() == model.lines.size(),
+                  "advance: the lines of the state must be those of the cart, " + std::to_string(model.lines.size()),
+                  static_cast<double>(moved.lines.size()));
+  if (moved.mode == CartMode::rest && (norm(moved.velocity) > 0 || !detail::equal(moved.yaw_rate, 0)))
+    moved.mode = CartMode::moving;
+  detail::CartWorkspace work(model);
+  detail::NoCartSink none;
+  const detail::CartSegment ground{segment.duration, segment.start, segment.end,
+                                   standard_gravity + segment.vertical_start, standard_gravity + segment.vertical_end};
+  detail::move(work, ground, moved, none);
+  state = std::move(moved);
+}
+
+}  // namespace stickslip
