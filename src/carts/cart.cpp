@@ -38,8 +38,10 @@ void check_support(std::size_t i, const Support& support) {
       [&](const auto& one) {
         finite("at", one.at.axis, "m");
         finite("at", one.at.transverse, "m");
-        finite("heading", one.heading, "rad");
-        at_least_0("rolling_mu", one.rolling_mu);
+        if constexpr (requires { one.heading; }) {
+          finite("heading", one.heading, "rad");
+          at_least_0("rolling_mu", one.rolling_mu);
+        }
         if (one.share) at_least_0("share", *one.share);
         if constexpr (requires { one.reach; }) {
           at_least_0("side_mu", one.side_mu);
@@ -200,8 +202,8 @@ CartModel::CartModel(const Cart& cart)
       headings.push_back(swivel->heading);
       wheel.across = line(false, swivel->side_mu);
       wheel.along = line(true, swivel->rolling_mu);
-    } else {
-      const FixedWheel& fixed = std::get<FixedWheel>(cart.supports()[i]);
+    } else if (const auto* wheel_fixed = std::get_if<FixedWheel>(&cart.supports()[i])) {
+      const FixedWheel& fixed = *wheel_fixed;
       wheel.cosine = std::cos(fixed.heading);
       wheel.sine = std::sin(fixed.heading);
       wheel.across = line(false, fixed.mu);

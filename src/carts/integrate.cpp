@@ -111,7 +111,7 @@ class CartRun {
       if (duration > 0x1p20)
         throw ConvergenceError("integrate: without ground motion the cart does not come to rest: after " +
                                shortest(time - begin) + " s it still moves at " + shortest(norm(state.velocity)) +
-                               " m/s; integrate it without settle");
+                               " m/s and turns at " + shortest(state.yaw_rate) + " rad/s; integrate it without settle");
       recorder.begin_segment(time, time + duration);
       move(work_, calm_for(duration), state, recorder);
       time += duration;

@@ -62,11 +62,8 @@ class CartLeg {
     heavy_ = std::max(heavy_, 0.0);
     y0_ = model_.velocities(state);
     stick();
-    double quickest = std::abs(y0_[2]) / model_.gyration;
-    const double speed = norm(y0_), push = norm(load_) + heavy_;
-    if (model_.shortest_reach < never)
-      quickest += speed / model_.shortest_reach + std::sqrt(push / model_.shortest_reach);
-    if (quickest * duration_ > 2) duration_ = 2 / quickest;
+    // The terms of the leg before tell how far a series of this cart converges.
+    if (radius_ > 0) duration_ = std::min(duration_, 0.16 * radius_);
     const double asked = duration_;
     for (double part; (part = expand()) < 1;) {
       duration_ *= part;
@@ -400,6 +397,7 @@ class CartLeg {
       quiet = term <= small * largest && turns <= small ? quiet + 1 : 0;
       if (k >= 3 && quiet >= (model_.casters > 0 && norm(y0_) < 1e-6 * largest ? 5 : 2)) {
         order_ = k;
+        radius_ = h * std::pow(small, -1.0 / std::max(k, 8));
         return 1;
       }
       if (k + 2 > highest) {
@@ -427,6 +425,7 @@ class CartLeg {
   const CartModel& model_;
   const CartState* state_ = nullptr;
   double duration_ = 0;
+  double radius_ = 0;  // of convergence, about [s]
   Vector2 load_{}, load_rate_{};
   double heavy_ = 0, heavy_rate_ = 0;  // N [m/s^2] and its rate
   Vector3 y0_{};

@@ -117,7 +117,7 @@ class CartRecorder final : public CartSink, public EventLog<CartEvent>, public P
       const double work = leg.friction(l, duration);
       response_.energy.dissipated += work;
       SupportWork& at = response_.energy.by_support[model_.lines[l].wheel];
-      (model_.lines[l].along ? at.along : at.across) += work;
+      (model_.lines[l].along ? at.roll : at.scrub) += work;
     }
     if (!(leg.duration() > 0)) return;
     const double until = std::min(duration / leg.duration(), 1.0);

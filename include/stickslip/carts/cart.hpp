@@ -1,4 +1,4 @@
-// A rigid cart on swivel casters and fixed wheels, in the plane.
+// A rigid cart on swivel casters, fixed wheels and feet, in the plane.
 #pragma once
 
 #include <cstddef>

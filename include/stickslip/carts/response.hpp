@@ -50,8 +50,9 @@ struct Clearance {
 
 /// Work against friction at one support, per unit mass of the cart [m^2/s^2].
 struct SupportWork {
-  double across = 0;  ///< scrub of a caster, side slip of a fixed wheel
-  double along = 0;   ///< rolling
+  double scrub = 0;  ///< of a wheel, across it
+  double roll = 0;   ///< of a wheel, along it
+  double slide = 0;  ///< of a foot
 };
 
 /// The energy balance, per unit mass [m^2/s^2]: initial + input = dissipated + kinetic.

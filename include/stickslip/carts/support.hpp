@@ -1,6 +1,7 @@
 // What a cart stands on: swivel casters, fixed wheels and feet.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <variant>
 
@@ -56,6 +57,21 @@ struct FixedWheel {
   friend bool operator==(const FixedWheel&, const FixedWheel&) = default;
 };
 
-using Support = std::variant<SwivelCaster, FixedWheel>;
+/// What does not roll: F = -mu N V/|V| while it slides, any |F| <= mu N at rest. A foot, or a caster whose wheel and swivel are
+/// both locked.
+struct Foot {
+  Vector2 at{};   ///< in the cart's frame [m], finite
+  double mu = 0;  ///< at least 0, finite
+  std::optional<double> share{};
+
+  /// A caster whose wheel and swivel are locked: a foot where its wheel touches the floor, behind its pivot.
+  static Foot of_locked_caster(Vector2 at, double heading, double mu, double trail) {
+    return {at - trail * Vector2{std::cos(heading), std::sin(heading)}, mu};
+  }
+
+  friend bool operator==(const Foot&, const Foot&) = default;
+};
+
+using Support = std::variant<SwivelCaster, FixedWheel, Foot>;
 
 }  // namespace stickslip
