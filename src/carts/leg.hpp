@@ -81,12 +81,6 @@ class CartLeg {
       most = std::max(most, -margin_at_start(face) / (face.reach * heavy_ + size_of_forces()));
     return most;
   }
-  /// The smallest margin at the start [m/s^2].
-  double margin() const noexcept {
-    double least = never;
-    for (const Zonotope::Face& face : stuck_.faces()) least = std::min(least, margin_at_start(face));
-    return least;
-  }
 
   /// The first event.
   Event next() const {

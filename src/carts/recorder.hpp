@@ -122,7 +122,6 @@ class CartRecorder final : public CartSink, public EventLog<CartEvent>, public P
     if (!(leg.duration() > 0)) return;
     const double until = std::min(duration / leg.duration(), 1.0);
     const auto time_of = [&](double s) { return when(begin + s * leg.duration()); };
-    response_.margin = std::min(response_.margin, leg.margin());
 
     PointSeries point;
     point.set(leg, {}, {});
