@@ -12,8 +12,8 @@ namespace {
 Vector3 solve_symmetric(const double (&h)[6], const Vector3& b) noexcept {
   // h: xx, xy, xz, yy, yz, zz
   const double l00 = std::sqrt(h[0]), l10 = h[1] / l00, l20 = h[2] / l00;
-  const double l11 = std::sqrt(std::max(h[3] - l10 * l10, 1e-300)), l21 = (h[4] - l20 * l10) / l11;
-  const double l22 = std::sqrt(std::max(h[5] - l20 * l20 - l21 * l21, 1e-300));
+  const double l11 = std::sqrt(std::max(h[3] - l10 * l10, 1e-16 * h[3])), l21 = (h[4] - l20 * l10) / l11;
+  const double l22 = std::sqrt(std::max(h[5] - l20 * l20 - l21 * l21, 1e-16 * h[5]));
   const double z0 = b[0] / l00, z1 = (b[1] - l10 * z0) / l11, z2 = (b[2] - l20 * z0 - l21 * z1) / l22;
   Vector3 x{};
   x[2] = z2 / l22;
@@ -50,20 +50,41 @@ Vector3 AccelerationProblem::barrier(const Vector3& p, double scale) {
   const auto residual = [&](const Vector3& at, double mu) {
     Vector3 f = at;
     add_to(f, -1, target);
-    for (const Line& line : lines_)
-      add_to(f, push(dot(line.row, at) + line.beta / scale, line.level / scale, mu), line.row);
+    for (const Line& line : lines_) {
+      const double x = dot(line.row, at) + line.beta / scale, level = line.level / scale;
+      if (!line.foot) {
+        add_to(f, push(x, level, mu), line.row);
+        continue;
+      }
+      const double z = dot(line.other, at), speed = std::hypot(x, z);
+      const double by = level * level / (mu + std::hypot(mu, speed * level));  // the force over the speed
+      add_to(f, by * x, line.row);
+      add_to(f, by * z, line.other);
+    }
     return f;
   };
   for (double mu = 1; mu >= last_barrier; mu *= 0.1) {
     Vector3 f = residual(a, mu);
     for (int steps = 0; steps < 30; ++steps) {
       double h[6] = {1, 0, 0, 1, 0, 1};
+      const auto stiffen = [&h](double by, const Vector3& r, const Vector3& o) {
+        h[0] += by * r[0] * o[0], h[1] += by * (r[0] * o[1] + r[1] * o[0]) / 2;
+        h[2] += by * (r[0] * o[2] + r[2] * o[0]) / 2, h[3] += by * r[1] * o[1];
+        h[4] += by * (r[1] * o[2] + r[2] * o[1]) / 2, h[5] += by * r[2] * o[2];
+      };
       for (const Line& line : lines_) {
         const double level = line.level / scale, x = dot(line.row, a) + line.beta / scale;
-        const double q = std::hypot(mu, x * level), steep = level * level * mu / (q * (mu + q));
-        const Vector3& r = line.row;
-        h[0] += steep * r[0] * r[0], h[1] += steep * r[0] * r[1], h[2] += steep * r[0] * r[2];
-        h[3] += steep * r[1] * r[1], h[4] += steep * r[1] * r[2], h[5] += steep * r[2] * r[2];
+        const double z = line.foot ? dot(line.other, a) : 0, speed = line.foot ? std::hypot(x, z) : x;
+        const double q = std::hypot(mu, speed * level), steep = level * level * mu / (q * (mu + q));
+        if (!line.foot) {
+          stiffen(steep, line.row, line.row);
+          continue;
+        }
+        const double flat = level * level / (mu + q);  // across the direction of its speed
+        const double c = speed > 0 ? x / speed : 1, s = speed > 0 ? z / speed : 0;
+        stiffen(steep * c * c + flat * s * s, line.row, line.row);
+        stiffen(steep * s * s + flat * c * c, line.other, line.other);
+        stiffen(2 * (steep - flat) * c * s, line.row, line.other);
       }
       const Vector3 step = solve_symmetric(h, f);
       const double decrement = dot(step, f);
@@ -84,40 +105,50 @@ Vector3 AccelerationProblem::barrier(const Vector3& p, double scale) {
 }
 
 AccelerationProblem::Trial AccelerationProblem::attempt(const Vector3& p, double scale,
-                                                        const std::vector<std::int8_t>& modes) {
+                                                        const std::vector<std::int8_t>& modes, const Vector3& guess) {
   Vector3 target = p;
   stuck_.clear();
+  betas_.clear();
+  bool foot_sticks = false, foot_slides = false;
   for (std::size_t j = 0; j < lines_.size(); ++j) {
-    if (modes[j] == 0)
-      stuck_.add(lines_[j].row, lines_[j].level);
-    else
-      add_to(target, -modes[j] * lines_[j].level, lines_[j].row);
+    const Line& line = lines_[j];
+    if (modes[j] != 0) {
+      if (line.foot)
+        foot_slides = true;
+      else
+        add_to(target, -modes[j] * line.level, line.row);
+      continue;
+    }
+    stuck_.add(line.row, line.level);
+    betas_.push_back(line.beta);
+    if (!line.foot) continue;
+    stuck_.add(line.other, line.level);
+    betas_.push_back(0);
+    foot_sticks = true;
   }
   stuck_.close();
-  std::vector<std::size_t> which;  // of the lines that stick
-  for (std::size_t j = 0; j < lines_.size(); ++j)
-    if (modes[j] == 0) which.push_back(j);
 
   // The point nearest to the target at which the basis sticks: by Gram-Schmidt, each axis meets its own condition.
   Trial trial;
-  trial.a = target;
+  trial.a = foot_slides ? guess : target;
   Vector3 axes[3];
   for (std::size_t i = 0; i < stuck_.rank(); ++i) {
-    const Line& line = lines_[which[stuck_.basis(i)]];
-    Vector3 axis = line.row;
+    const Vector3& row = stuck_.row(stuck_.basis(i));
+    Vector3 axis = row;
     for (int twice = 0; twice < 2; ++twice)
       for (std::size_t l = 0; l < i; ++l) add_to(axis, -dot(axes[l], axis), axes[l]);
     axes[i] = scaled(1 / norm(axis), axis);
     // moving along the axis does not change the conditions before
-    add_to(trial.a, -(dot(line.row, trial.a) + line.beta) / dot(line.row, axes[i]), axes[i]);
+    add_to(trial.a, -(dot(row, trial.a) + betas_[stuck_.basis(i)]) / dot(row, axes[i]), axes[i]);
   }
+  if (foot_slides) trial.a = slide_feet(target, modes, trial.a);
   Vector3 carried = target;
   add_to(carried, -1, trial.a);
   trial.gap = std::numeric_limits<double>::infinity();
   for (std::size_t j = 0; j < lines_.size(); ++j) {
     const double length = norm(lines_[j].row);
     if (!(length > 0)) continue;
-    const double x = (dot(lines_[j].row, trial.a) + lines_[j].beta) / (length * scale);
+    const double x = lines_[j].rate(trial.a, 1) / (length * scale);
     if (modes[j] == 0) {
       trial.violation = std::max(trial.violation, std::abs(x));
     } else {
@@ -125,12 +156,71 @@ AccelerationProblem::Trial AccelerationProblem::attempt(const Vector3& p, double
       trial.gap = std::min(trial.gap, modes[j] * x);
     }
   }
-  if (stuck_.rank() > 0) {
+  if (stuck_.rank() > 0 && !foot_sticks) {
+    for (std::size_t j = 0; j < lines_.size(); ++j) {
+      if (modes[j] == 0 || !lines_[j].foot) continue;
+      const double x = dot(lines_[j].row, trial.a), z = dot(lines_[j].other, trial.a), speed = std::hypot(x, z);
+      if (!(speed > 0)) continue;
+      add_to(carried, -lines_[j].level * x / speed, lines_[j].row);
+      add_to(carried, -lines_[j].level * z / speed, lines_[j].other);
+    }
     const double margin = stuck_.margin(carried) / scale;
     trial.violation = std::max(trial.violation, -margin);
     trial.gap = std::min(trial.gap, margin);
   }
   return trial;
+}
+
+// Newton's method for the directions of the feet that slide, within what the rows that stick leave free.
+Vector3 AccelerationProblem::slide_feet(const Vector3& target, const std::vector<std::int8_t>& modes, Vector3 a) const {
+  for (int steps = 0; steps < 40; ++steps) {
+    Vector3 f = a;
+    add_to(f, -1, target);
+    double h[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (std::size_t j = 0; j < lines_.size(); ++j) {
+      const Line& line = lines_[j];
+      if (!line.foot || modes[j] == 0) continue;
+      const double x = dot(line.row, a), z = dot(line.other, a), speed = std::hypot(x, z);
+      if (!(speed > 0)) return a;
+      add_to(f, line.level * x / speed, line.row);
+      add_to(f, line.level * z / speed, line.other);
+      Vector3 across = scaled(-z / speed, line.row);
+      add_to(across, x / speed, line.other);
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t l = 0; l < 3; ++l) h[i][l] += line.level / speed * across[i] * across[l];
+    }
+    // A direction that the stuck rows forbid is made infinitely stiff by leaving it out.
+    f = stuck_.outside(f);
+    double k[6];
+    const auto project = [&](const Vector3& v) { return stuck_.outside(v); };
+    Vector3 columns[3];
+    for (std::size_t l = 0; l < 3; ++l) {
+      Vector3 unit{};
+      unit[l] = 1;
+      const Vector3 free = project(unit);
+      Vector3 column{};
+      for (std::size_t i = 0; i < 3; ++i) column[i] = h[i][0] * free[0] + h[i][1] * free[1] + h[i][2] * free[2];
+      columns[l] = project(column);
+      Vector3 rest = unit;
+      add_to(rest, -1, free);
+      add_to(columns[l], 1, rest);
+    }
+    k[0] = columns[0][0], k[1] = columns[1][0], k[2] = columns[2][0];
+    k[3] = columns[1][1], k[4] = columns[2][1], k[5] = columns[2][2];
+    Vector3 step = stuck_.outside(solve_symmetric(k, f));
+    // A foot does not pass its turning point in one step.
+    double part = 1;
+    for (std::size_t j = 0; j < lines_.size(); ++j) {
+      const Line& line = lines_[j];
+      if (!line.foot || modes[j] == 0) continue;
+      const double speed = std::hypot(dot(line.row, a), dot(line.other, a));
+      const double change = std::hypot(dot(line.row, step), dot(line.other, step));
+      if (change > speed / 2) part = std::min(part, speed / (2 * change));
+    }
+    add_to(a, -part, step);
+    if (norm(step) <= 1e-16 * (norm(a) + norm(step))) break;
+  }
+  return a;
 }
 
 void AccelerationProblem::solve(const Vector3& p) {
@@ -148,12 +238,12 @@ void AccelerationProblem::solve(const Vector3& p) {
   // x (L - |lambda|) is about the barrier parameter: what is small decides.
   certainty_.resize(count);
   for (std::size_t j = 0; j < count; ++j) {
-    const double x = dot(lines_[j].row, guess) + lines_[j].beta / scale;
+    const double x = lines_[j].rate(guess, scale);
     const double size = std::abs(x) / std::sqrt(last_barrier);
     modes_[j] = static_cast<std::int8_t>(size < 1 ? 0 : x > 0 ? 1 : -1);
     certainty_[j] = std::abs(std::log(std::max(size, 1e-300)));
   }
-  Trial best = attempt(p, scale, modes_);
+  Trial best = attempt(p, scale, modes_, scaled(scale, guess));
   if (best.violation > tie) {
     // The least certain lines in every way.
     doubtful_.resize(count);
@@ -169,7 +259,7 @@ void AccelerationProblem::solve(const Vector3& p) {
         std::size_t digits = number;
         for (std::size_t i = 0; i < some; ++i, digits /= 3)
           tried_[doubtful_[i]] = static_cast<std::int8_t>(static_cast<int>(digits % 3) - 1);
-        const Trial trial = attempt(p, scale, tried_);
+        const Trial trial = attempt(p, scale, tried_, scaled(scale, guess));
         if (!(trial.violation < best.violation)) continue;
         best = trial;
         modes_ = tried_;
@@ -179,18 +269,18 @@ void AccelerationProblem::solve(const Vector3& p) {
   // Ties stick.
   for (std::size_t j = 0; j < count; ++j) {
     const double length = norm(lines_[j].row);
-    const double x = dot(lines_[j].row, best.a) + lines_[j].beta;
+    const double x = lines_[j].rate(best.a, 1);
     if (modes_[j] == 0 || !(std::abs(x) <= tie * scale * length)) continue;
     tried_ = modes_;
     tried_[j] = 0;
-    const Trial trial = attempt(p, scale, tried_);
+    const Trial trial = attempt(p, scale, tried_, scaled(scale, guess));
     if (trial.violation > tie) continue;
     best = trial;
     modes_ = tried_;
   }
   a_ = best.a;
   gap_ = best.gap;
-  rests_ = std::all_of(modes_.begin(), modes_.end(), [](int mode) { return mode == 0; }) && norm(a_) <= tie * scale;
+  rests_ = norm(a_) <= tie * scale;
 }
 
 }  // namespace stickslip::detail

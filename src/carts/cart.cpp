@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "carts/hold.hpp"
 #include "carts/model.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/caster.hpp"
@@ -168,15 +169,8 @@ double Cart::holds(Vector2 direction, std::span<const double> headings) const {
   const Cart turned = headings.empty() ? *this : with_headings(headings);
   const detail::CartModel model(turned);
   const CartState state = model.start();
-  detail::Zonotope hold;
-  for (const detail::CartModel::Line& line : model.lines) hold.add(model.row(line, state), line.coefficient);
-  hold.close();
   const detail::Vector3 load{direction.axis / length, direction.transverse / length, 0};
-  if (detail::norm(hold.outside(load)) > 1e-12) return 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (const detail::Zonotope::Face& face : hold.faces())
-    if (const double along = detail::dot(face.normal, load); along > 0) least = std::min(least, face.reach / along);
-  return standard_gravity * least;
+  return standard_gravity * detail::CartHold(model, state).along(load);
 }
 
 namespace detail {
@@ -202,12 +196,14 @@ CartModel::CartModel(const Cart& cart)
       headings.push_back(swivel->heading);
       wheel.across = line(false, swivel->side_mu);
       wheel.along = line(true, swivel->rolling_mu);
-    } else if (const auto* wheel_fixed = std::get_if<FixedWheel>(&cart.supports()[i])) {
-      const FixedWheel& fixed = *wheel_fixed;
+    } else if (std::holds_alternative<FixedWheel>(cart.supports()[i])) {
+      const FixedWheel& fixed = std::get<FixedWheel>(cart.supports()[i]);
       wheel.cosine = std::cos(fixed.heading);
       wheel.sine = std::sin(fixed.heading);
       wheel.across = line(false, fixed.mu);
       wheel.along = line(true, fixed.rolling_mu);
+    } else if (const double level = share * std::get<stickslip::Foot>(cart.supports()[i]).mu; level > 0) {
+      feet.push_back({i, level});
     }
     wheels.push_back(wheel);
   }

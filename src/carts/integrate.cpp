@@ -66,7 +66,7 @@ class CartRun {
       require(std::isfinite(length) && length > 0, "integrate: the direction of a wall must be finite and not zero",
               length);
     }
-    if (options_.settle &&
+    if (options_.settle && model_.feet.empty() &&
         std::none_of(model_.lines.begin(), model_.lines.end(), [](const CartModel::Line& line) { return line.along; }))
       throw std::invalid_argument(
           "integrate: without rolling resistance this cart may roll for ever: give its wheels a rolling_mu, or "
@@ -185,8 +185,9 @@ void advance(const Cart& cart, const CartGround& segment, CartState& state) {
       static_cast<double>(moved.headings.size()));
   for (const double value : moved.headings)
     detail::require(std::isfinite(value), "advance: headings must be finite", value, "rad");
-  detail::require(moved.lines.empty() || moved.lines.size() == model.lines.size(),
-                  "advance: the lines of the state must be those of the cart, " + std::to_string(model.lines.size()),
+  detail::require(moved.lines.empty() || moved.lines.size() == model.contacts(),
+                  "advance: the lines of the state and feet of the state must be those of the cart, " +
+                      std::to_string(model.contacts()),
                   static_cast<double>(moved.lines.size()));
   if (moved.mode == CartMode::rest && (norm(moved.velocity) > 0 || !detail::equal(moved.yaw_rate, 0)))
     moved.mode = CartMode::moving;

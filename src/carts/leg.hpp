@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "carts/acceleration.hpp"
 #include "carts/model.hpp"
 #include "carts/zonotope.hpp"
 #include "stickslip/base/equal.hpp"
@@ -28,15 +29,16 @@ class CartLeg {
  public:
   using Coefficients = std::array<double, series::highest_order + 1>;
 
-  enum class What { nothing, line, face };
+  enum class What { nothing, line, face, foot };
   struct Event {
     double time = never;
     What what = What::nothing;
-    std::size_t which = 0;  // the line, or the face of the lines that stick
+    std::size_t which = 0;  // the line, the face of the lines that stick, or the foot
     bool tied = false;      // several faces meet
   };
 
-  explicit CartLeg(const CartModel& model) : model_(model), rolls_(model.wheels.size()), fresh_(model.lines.size()) {}
+  explicit CartLeg(const CartModel& model)
+      : model_(model), rolls_(model.wheels.size()), slides_(model.feet.size()), fresh_(model.contacts()) {}
 
   /// @param fresh  of each line, how many of the first derivatives of its slip vanish at the start because it begins there
   void begin(const CartState& state, const CartSegment& ground, double begin, double longest,
@@ -72,11 +74,13 @@ class CartLeg {
   }
 
   double duration() const noexcept { return duration_; }
+  bool holds_foot() const noexcept { return stuck_foot_ != none; }
   const Zonotope& stuck() const noexcept { return stuck_; }
   std::size_t stuck_line(std::size_t j) const noexcept { return stuck_lines_[j]; }
   /// The largest distance of the forces that stick beyond what they can carry, at the start, over what they can carry.
-  double excess() const noexcept {
+  double excess() const {
     double most = 0;
+    if (stuck_foot_ != none) return std::max(foot_part(0) - 1, 0.0);
     for (const Zonotope::Face& face : stuck_.faces())
       most = std::max(most, -margin_at_start(face) / (face.reach * heavy_ + size_of_forces()));
     return most;
@@ -95,11 +99,31 @@ class CartLeg {
       if (time < first.time) first = {time, what, which, first.tied};
       return time;
     };
+    if (stuck_foot_ != none) {
+      const double level = model_.feet[stuck_foot_].coefficient;
+      if (stuck_.size() == 0) {
+        const int degree = std::min(2 * order_, series::highest_order);
+        for (int k = 0; k <= degree; ++k) {
+          w[k] = 0;
+          for (int i = std::max(0, k - order_); i <= std::min(k, order_); ++i)
+            for (std::size_t j = 0; j < 2; ++j)
+              w[k] -= margins_[j][static_cast<std::size_t>(i)] * margins_[j][static_cast<std::size_t>(k - i)];
+        }
+        const double most = level * heavy_, rate = level * heavy_rate_ * duration_;
+        w[0] += most * most;
+        w[1] += 2 * most * rate;
+        w[2] += rate * rate;
+        if (w[0] < 1e-12 * most * most) w[0] = 0;  // it has just been found to stick
+        look(What::foot, stuck_foot_, degree);
+      } else if (const double time = foot_slips(); time < first.time) {
+        first = {time, What::foot, stuck_foot_, false};
+      }
+    }
     const auto& faces = stuck_.faces();
-    for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (std::size_t f = 0; f < faces.size() && stuck_foot_ == none; ++f) {
       for (int k = 0; k <= order_; ++k) {
         double carried = 0;
-        for (std::size_t i = 0; i < stuck_.rank(); ++i)
+        for (std::size_t i = 0; i < rank_; ++i)
           carried += faces[f].normal[i] * margins_[i][static_cast<std::size_t>(k)];
         w[k] = -carried;
       }
@@ -159,19 +183,21 @@ class CartLeg {
     return (load_.axis + load_rate_.axis * t) * dx - load_rate_.axis * mx +
            (load_.transverse + load_rate_.transverse * t) * dz - load_rate_.transverse * mz;
   }
-  /// Work against the friction of a line until a time [m^2/s^2].
+  /// Work against the friction of a line, or after those of a foot, until a time [m^2/s^2].
   double friction(std::size_t l, double t) const noexcept {
     const int sign = state_->lines[l];
     if (sign == 0) return 0;
     const double s = duration_ > 0 ? t / duration_ : 0;
-    const Coefficients& sigma = speed(l);
+    const bool foot = l >= model_.lines.size();
+    const Coefficients& sigma = foot ? slides_[l - model_.lines.size()].speed : speed(l);
+    const double coefficient = foot ? model_.feet[l - model_.lines.size()].coefficient : model_.lines[l].coefficient;
     double way = 0, moment = 0;
     for (int k = order_; k >= 0; --k) {
       way = way * s + sigma[static_cast<std::size_t>(k)] * series::reciprocal[k + 1];
       moment = moment * s +
                sigma[static_cast<std::size_t>(k)] * series::reciprocal[std::min(k + 2, series::highest_order + 1)];
     }
-    return sign * model_.lines[l].coefficient * (heavy_ * t * way + heavy_rate_ * t * t * moment);
+    return sign * coefficient * (heavy_ * t * way + heavy_rate_ * t * t * moment);
   }
 
   static double value(const Coefficients& c, int order, double s) noexcept {
@@ -192,6 +218,9 @@ class CartLeg {
     return sum;
   }
 
+  struct Slide {
+    Coefficients square, speed, inverse, x, y;  // of a foot: |V|^2, |V|, 1/|V|, V/|V|
+  };
   struct Roll {
     Coefficients heading, turning, cosine, sine;  // relative to the cart; `turning` is its rate
     Coefficients pivot_x, pivot_y;                // velocity of the pivot
@@ -202,47 +231,94 @@ class CartLeg {
     const CartModel::Line& line = model_.lines[l];
     return line.along ? rolls_[line.wheel].along : rolls_[line.wheel].across;
   }
+  // What the foot that sticks must carry beside the lines through it, over what it can carry: 1 where it slips. By
+  // halving, from 16 equal parts on.
+  double foot_part(double s) const {
+    Vector3 f{};
+    for (std::size_t i = 0; i < 2; ++i) f[i] = value(margins_[i], s);
+    const double weight = heavy_ + heavy_rate_ * duration_ * s;
+    // The nearest point of the zonogon of the lines.
+    AccelerationProblem& problem = beside_;
+    problem.clear();
+    for (std::size_t j = 0; j < stuck_.size(); ++j) problem.add(stuck_.row(j), 0, weight * stuck_.level(j));
+    problem.solve(f);
+    return norm(problem.acceleration()) / (model_.feet[stuck_foot_].coefficient * weight);
+  }
+  double foot_slips() const {
+    constexpr int parts = 16;
+    for (int i = 1; i <= parts; ++i) {
+      double low = (i - 1.0) / parts, high = static_cast<double>(i) / parts;
+      if (!(foot_part(high) > 1)) continue;
+      while (high - low > 1e-15) {
+        const double middle = low + (high - low) / 2;
+        if (middle <= low || middle >= high) break;
+        (foot_part(middle) > 1 ? high : low) = middle;
+      }
+      return high * duration_;
+    }
+    return never;
+  }
   double margin_at_start(const Zonotope::Face& face) const noexcept {
     double carried = 0;
-    for (std::size_t i = 0; i < stuck_.rank(); ++i) carried += face.normal[i] * margins_[i][0];
+    for (std::size_t i = 0; i < rank_; ++i) carried += face.normal[i] * margins_[i][0];
     return face.reach * heavy_ - carried;
   }
   double size_of_forces() const noexcept {
     double size = norm(load_);
-    for (std::size_t i = 0; i < stuck_.rank(); ++i) size = std::max(size, std::abs(margins_[i][0]));
+    for (std::size_t i = 0; i < rank_; ++i) size = std::max(size, std::abs(margins_[i][0]));
     return size;
   }
 
-  // The lines that stick: the basis, and the others in terms of it.
+  struct Basis {
+    std::size_t wheel;
+    bool along;
+    Vector3 row;
+  };
+
+  // What sticks: the basis, and the lines in terms of it. A foot that sticks gives the basis, and what sticks beside it
+  // passes through it.
   void stick() {
     sticking_.clear();
     stuck_lines_.clear();
-    for (std::size_t l = 0; l < model_.lines.size(); ++l)
-      if (state_->lines[l] == 0) {
-        sticking_.add(model_.row(model_.lines[l], *state_), model_.lines[l].coefficient);
-        stuck_lines_.push_back(l);
-      }
+    stuck_foot_ = none;
+    for (std::size_t f = 0; f < model_.feet.size(); ++f)
+      if (state_->lines[model_.lines.size() + f] == 0) stuck_foot_ = f;
+    if (stuck_foot_ != none) {
+      const CartModel::Foot& foot = model_.feet[stuck_foot_];
+      sticking_.add(model_.row_axis(foot), 0);
+      sticking_.add(model_.row_transverse(foot), 0);
+    } else {
+      for (std::size_t l = 0; l < model_.lines.size(); ++l)
+        if (state_->lines[l] == 0) sticking_.add(model_.row(model_.lines[l], *state_), 0);
+    }
     sticking_.close();
-    const std::size_t rank = sticking_.rank();
+    for (std::size_t l = 0; l < model_.lines.size(); ++l)
+      if (state_->lines[l] == 0) stuck_lines_.push_back(l);
+    rank_ = sticking_.rank();
     Vector3 rows[3], dual[3];  // f = sum (f.dual) row
-    for (std::size_t i = 0; i < rank; ++i) rows[i] = sticking_.row(sticking_.basis(i));
-    if (rank == 1) {
+    for (std::size_t i = 0; i < rank_; ++i) {
+      const std::size_t j = stuck_foot_ != none ? i : sticking_.basis(i);
+      rows[i] = sticking_.row(j);
+      if (stuck_foot_ != none)
+        basis_[i] = {model_.feet[stuck_foot_].wheel, i == 0, rows[i]};
+      else
+        basis_[i] = {model_.lines[stuck_lines_[j]].wheel, model_.lines[stuck_lines_[j]].along, rows[i]};
+    }
+    if (rank_ == 1) {
       dual[0] = scaled(1 / dot(rows[0], rows[0]), rows[0]);
-    } else if (rank == 2) {
+    } else if (rank_ == 2) {
       const Vector3 w = cross(rows[0], rows[1]);
       dual[0] = scaled(1 / dot(w, w), cross(rows[1], w));
       dual[1] = scaled(1 / dot(w, w), cross(w, rows[0]));
-    } else if (rank == 3) {
-      const double volume = dot(rows[0], cross(rows[1], rows[2]));
-      for (std::size_t i = 0; i < 3; ++i) dual[i] = scaled(1 / volume, cross(rows[(i + 1) % 3], rows[(i + 2) % 3]));
     }
     stuck_.clear();
-    for (std::size_t j = 0; j < sticking_.size(); ++j) {
+    for (const std::size_t l : stuck_lines_) {
+      const Vector3 row = model_.row(model_.lines[l], *state_);
       Vector3 part{};
-      for (std::size_t i = 0; i < rank; ++i) part[i] = dot(sticking_.row(j), dual[i]);
-      for (std::size_t i = 0; i < rank; ++i)
-        if (sticking_.basis(i) == j) part = {}, part[i] = 1;
-      stuck_.add(part, model_.lines[stuck_lines_[j]].coefficient);
+      for (std::size_t i = 0; i < rank_; ++i) part[i] = dot(row, dual[i]);
+      for (std::size_t i = 0; i < rank_; ++i)
+        if (row == rows[i]) part = {}, part[i] = 1;
+      stuck_.add(part, model_.lines[l].coefficient);
     }
     stuck_.close();
   }
@@ -251,22 +327,14 @@ class CartLeg {
   double expand() {
     using series::convolve;
     const double h = duration_, k_gyr = model_.gyration;
-    const std::size_t wheels = model_.wheels.size(), rank = sticking_.rank();
+    const std::size_t wheels = model_.wheels.size(), rank = rank_;
     place_ = state_->displacement;
     for (std::size_t i = 0; i < 3; ++i) y_[i][0] = y0_[i];
     yaw_[0] = state_->yaw;
     cosine_[0] = std::cos(state_->yaw);
     sine_[0] = std::sin(state_->yaw);
     x_[0] = z_[0] = 0;
-    struct Basis {
-      std::size_t line, wheel;
-      bool along;
-      Vector3 row;
-    } basis[3];
-    for (std::size_t i = 0; i < rank; ++i) {
-      const std::size_t line = stuck_lines_[sticking_.basis(i)];
-      basis[i] = {line, model_.lines[line].wheel, model_.lines[line].along, sticking_.row(sticking_.basis(i))};
-    }
+    const auto& basis = basis_;
     double gram[3][3]{}, inverse[3][3]{};
     for (std::size_t i = 0; i < rank; ++i)
       for (std::size_t j = 0; j < rank; ++j) gram[i][j] = dot(basis[i].row, basis[j].row);
@@ -357,6 +425,40 @@ class CartLeg {
         push(at, heavy_);
         if (k > 0) push(at - 1, h * heavy_rate_);
       }
+      for (std::size_t f = 0; f < model_.feet.size(); ++f) {
+        if (state_->lines[model_.lines.size() + f] == 0) continue;
+        if (!(heavy_ > 0 || heavy_rate_ > 0)) {
+          slides_[f].speed[at] = 0;
+          continue;
+        }
+        const CartModel::Foot& foot = model_.feet[f];
+        const CartModel::Wheel& wheel = model_.wheels[foot.wheel];
+        const Roll& roll = rolls_[foot.wheel];
+        Slide& slide = slides_[f];
+        const double square = convolve(roll.pivot_x, roll.pivot_x, 0, k) + convolve(roll.pivot_y, roll.pivot_y, 0, k);
+        slide.square[at] = square;
+        if (k == 0) {
+          slide.speed[0] = std::sqrt(square);
+          slide.inverse[0] = 1 / slide.speed[0];
+        } else {
+          // speed^2 = square, speed inverse = 1
+          slide.speed[at] = 0;
+          slide.speed[at] = (square - convolve(slide.speed, slide.speed, 0, k)) / (2 * slide.speed[0]);
+          slide.inverse[at] = 0;
+          slide.inverse[at] = -convolve(slide.speed, slide.inverse, 0, k) / slide.speed[0];
+        }
+        slide.x[at] = convolve(slide.inverse, roll.pivot_x, 0, k);
+        slide.y[at] = convolve(slide.inverse, roll.pivot_y, 0, k);
+        const auto push = [&](std::size_t order, double weight) {
+          const double fx = -foot.coefficient * weight * slide.x[order],
+                       fy = -foot.coefficient * weight * slide.y[order];
+          force[0] += fx;
+          force[1] += fy;
+          force[2] += wheel.lever_x * fy - wheel.lever_y * fx;
+        };
+        push(at, heavy_);
+        if (k > 0) push(at - 1, h * heavy_rate_);
+      }
       // The forces of the basis, as far as they are known.
       for (std::size_t i = 0; i < rank; ++i) {
         const Roll& roll = rolls_[basis[i].wheel];
@@ -428,9 +530,15 @@ class CartLeg {
   std::array<Coefficients, 3> y_;
   Coefficients yaw_, turning_, cosine_, sine_, x_, z_;
   std::vector<Roll> rolls_;
+  std::vector<Slide> slides_;
+  static constexpr std::size_t none = CartModel::none;
+  std::array<Basis, 3> basis_{};
+  std::size_t rank_ = 0;
+  std::size_t stuck_foot_ = none;
   std::array<Coefficients, 3> margins_;  // the forces of the basis
   std::vector<std::uint8_t> fresh_;
-  Zonotope sticking_, stuck_;  // of rows; of their parts in the basis
+  Zonotope sticking_, stuck_;  // of rows; of the parts of lines in the basis
+  mutable AccelerationProblem beside_;
   std::vector<std::size_t> stuck_lines_;
 };
 

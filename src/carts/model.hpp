@@ -32,11 +32,19 @@ struct CartModel {
     double coefficient;  // friction over the weight of the cart
   };
 
+  struct Foot {
+    std::size_t wheel;
+    double coefficient;
+  };
+
   explicit CartModel(const Cart& cart);
 
-  std::vector<Wheel> wheels;
+  std::vector<Wheel> wheels;  // of all supports
   std::vector<Line> lines;
+  std::vector<Foot> feet;        // their modes follow those of the lines: 1 slides, 0 sticks
   std::vector<Vector2> outline;  // from the center of mass [m]
+  std::size_t contacts() const noexcept { return lines.size() + feet.size(); }
+
   std::vector<double> headings;  // at the start, relative to the cart [rad]
   std::size_t casters;
   double gyration;        // k [m]
@@ -62,6 +70,8 @@ struct CartModel {
   static Vector3 row_of(const Wheel& wheel, Vector2 d) noexcept {
     return {d.axis, d.transverse, wheel.lever_x * d.transverse - wheel.lever_y * d.axis};
   }
+  Vector3 row_axis(const Foot& foot) const noexcept { return row_of(wheels[foot.wheel], {1, 0}); }
+  Vector3 row_transverse(const Foot& foot) const noexcept { return row_of(wheels[foot.wheel], {0, 1}); }
   /// Velocity of a pivot in the cart's frame.
   static Vector2 pivot(const Wheel& wheel, const Vector3& y) noexcept {
     return {y[0] - y[2] * wheel.lever_y, y[1] + y[2] * wheel.lever_x};

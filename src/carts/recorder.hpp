@@ -113,12 +113,7 @@ class CartRecorder final : public CartSink, public EventLog<CartEvent>, public P
     count_work();
     response_.time_moving += duration;
     response_.energy.input += leg.input(duration);
-    for (std::size_t l = 0; l < model_.lines.size(); ++l) {
-      const double work = leg.friction(l, duration);
-      response_.energy.dissipated += work;
-      SupportWork& at = response_.energy.by_support[model_.lines[l].wheel];
-      (model_.lines[l].along ? at.roll : at.scrub) += work;
-    }
+    for (std::size_t l = 0; l < model_.contacts(); ++l) spend(l, leg.friction(l, duration));
     if (!(leg.duration() > 0)) return;
     const double until = std::min(duration / leg.duration(), 1.0);
     const auto time_of = [&](double s) { return when(begin + s * leg.duration()); };
@@ -161,6 +156,27 @@ class CartRecorder final : public CartSink, public EventLog<CartEvent>, public P
     }
   }
 
+  void creep(double begin, double duration, double input, const std::vector<double>& work,
+             const CartState& end) override {
+    count_work();
+    response_.time_moving += duration;
+    response_.energy.input += input;
+    for (std::size_t l = 0; l < model_.contacts(); ++l) spend(l, work[l]);
+    const double time = when(begin + duration), c = std::cos(end.yaw), s = std::sin(end.yaw);
+    if (norm(end.displacement) > response_.peak) response_.peak = norm(end.displacement), response_.peak_time = time;
+    response_.peak_yaw = std::max(response_.peak_yaw, std::abs(end.yaw - yaw_));
+    for (std::size_t i = 0; i < starts_.size(); ++i) {
+      const Vector2 corner = model_.outline[i];
+      const Vector2 at =
+          end.displacement + Vector2{c * corner.axis - s * corner.transverse, s * corner.axis + c * corner.transverse};
+      see(at, time);
+      if (!(norm(at - starts_[i]) > response_.peak_outline)) continue;
+      response_.peak_outline = norm(at - starts_[i]);
+      response_.peak_outline_time = time;
+      response_.peak_corner = i;
+    }
+  }
+
   void event(EventKind kind, double time, const CartState& state) override {
     switch (kind) {
       case EventKind::arrest:
@@ -175,7 +191,10 @@ class CartRecorder final : public CartSink, public EventLog<CartEvent>, public P
     }
   }
   void happens(CartEventKind kind, double time, const CartState& state, std::size_t line) override {
-    add(kind, time, state, model_.lines[line].wheel, model_.lines[line].along);
+    if (line < model_.lines.size())
+      add(kind, time, state, model_.lines[line].wheel, model_.lines[line].along);
+    else
+      add(kind, time, state, model_.feet[line - model_.lines.size()].wheel);
   }
   void decide(double margin) override { response_.margin = std::min(response_.margin, margin); }
 
@@ -200,6 +219,15 @@ class CartRecorder final : public CartSink, public EventLog<CartEvent>, public P
            bool along = false) {
     count_work();
     EventLog::add({}, time, {0, state.displacement, state.yaw, kind, support, along}, {});
+  }
+  void spend(std::size_t l, double work) noexcept {
+    response_.energy.dissipated += work;
+    auto& by_support = response_.energy.by_support;
+    if (l < model_.lines.size())
+      (model_.lines[l].along ? by_support[model_.lines[l].wheel].roll : by_support[model_.lines[l].wheel].scrub) +=
+          work;
+    else
+      by_support[model_.feet[l - model_.lines.size()].wheel].slide += work;
   }
   static double most(const PointSeries& point) noexcept {
     return std::hypot(std::abs(point.x[0]) + point.spread(point.x), std::abs(point.y[0]) + point.spread(point.y));

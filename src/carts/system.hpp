@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "carts/acceleration.hpp"
+#include "carts/hold.hpp"
 #include "carts/leg.hpp"
 #include "carts/model.hpp"
 #include "stickslip/carts/response.hpp"
@@ -25,8 +26,13 @@ class CartSink {
   virtual void follow(const CartLeg& leg, double begin, double duration, const CartState& end) = 0;
   /// Of the event loop: `breakaway` and `reversal` out of rest, `arrest`.
   virtual void event(EventKind kind, double time, const CartState& state) = 0;
-  /// A line of a wheel sticks, slips or reverses.
+  /// A line or a foot sticks, slips or reverses.
   virtual void happens(CartEventKind /*kind*/, double /*time*/, const CartState&, std::size_t /*line*/) {}
+  /// The cart moves for a short time in which what begins to slide is slaved to its force.
+  /// @param input  work of the ground [m^2/s^2]
+  /// @param work   against the friction of each line and foot
+  virtual void creep(double /*begin*/, double /*duration*/, double /*input*/, const std::vector<double>& /*work*/,
+                     const CartState& /*end*/) {}
   /// How far a decision was from another one, over the accelerations that take part.
   virtual void decide(double /*margin*/) {}
 
@@ -36,19 +42,22 @@ class CartSink {
 
 /// The memory of a cart's motion, kept from segment to segment.
 struct CartWorkspace {
-  explicit CartWorkspace(const CartModel& cart) : model(cart), leg(cart), fresh(cart.lines.size()) {}
+  explicit CartWorkspace(const CartModel& cart)
+      : model(cart), leg(cart), fresh(cart.contacts()), turning(3 * cart.casters) {}
 
   const CartModel& model;
   CartLeg leg;
   AccelerationProblem problem;
-  Zonotope hold;  // of all lines, while it rests
+  CartHold hold;  // while it rests
   bool knows_hold = false;
   std::vector<std::uint8_t> fresh;  // as CartLeg::begin
   std::vector<std::size_t> asked;   // the lines of the problem
-  std::vector<double> speeds;       // of the lines [m/s]
   CartState end;                    // of the leg
   std::vector<std::int8_t> before;  // the lines before an event
   Zonotope still;                   // of the lines that stick
+  CartState stage;                  // of a step
+  std::vector<double> turning;      // rates of the headings at three points of a step
+  std::vector<double> work;
 };
 
 struct CartDeparture {
@@ -61,13 +70,17 @@ struct CartDeparture {
 };
 
 struct CartSlide {
+  enum class Now { leg, halt, slow_foot, slaved };  // what comes next, without a leg
+
   CartLeg* leg;
   CartLeg::Event next;
+  Now now = Now::leg;
   double stop = never;  // stops are passages
 
   struct Leg {
     double time;
   };
+  bool moves() const noexcept { return now == Now::leg; }
   Leg whole() const noexcept { return {leg->duration()}; }
   Leg until(double t) const noexcept { return {t}; }
 };
@@ -86,8 +99,8 @@ class CartSystem {
   CartSystem(CartWorkspace& work, const CartSegment& ground, CartState& state)
       : work_(work), model_(work.model), ground_(ground), state_(state) {
     std::fill(work_.fresh.begin(), work_.fresh.end(), std::uint8_t{0});
-    if (state_.mode == CartMode::moving && state_.lines.size() != model_.lines.size()) {
-      state_.lines.assign(model_.lines.size(), 0);
+    if (state_.mode == CartMode::moving && state_.lines.size() != model_.contacts()) {
+      state_.lines.assign(model_.contacts(), 0);
       decide_all();
     }
   }
@@ -117,11 +130,34 @@ class CartSystem {
         first.tied = first.tied || meets;
         beyond = beyond || (f0 > 0 && !(begin > now_));
       };
-      for (const Zonotope::Face& face : work_.hold.faces())
+      if (work_.hold.has_feet()) {
+        // Loads are carried in an interval of time: from outside each plane cuts nearer.
+        Vector3 normal{};
+        if (work_.hold.leaves(from, heavy_from, normal)) {
+          first = {true, begin - now_, !(begin > now_), false, nullptr};
+          beyond = first.beyond;
+          return;
+        }
+        double part = 1;
+        for (int steps = 0; steps < 100; ++steps) {
+          Vector3 load = scaled(1 - part, from);
+          add_to(load, part, to);
+          if (!work_.hold.leaves(load, (1 - part) * heavy_from + part * heavy_to, normal)) break;
+          const double most = work_.hold.support(normal);
+          const double f0 = dot(normal, from) - most * heavy_from, f1 = dot(normal, to) - most * heavy_to;
+          const double next = f0 >= 0 ? 0 : f0 / (f0 - f1);
+          first = {true, begin - now_ + (end - begin) * std::min(next, part), false, false, nullptr};
+          if (!(next < part)) break;
+          part = next;
+        }
+        return;
+      }
+      const Zonotope& lines = work_.hold.lines();
+      for (const Zonotope::Face& face : lines.faces())
         look(&face.normal, dot(face.normal, from) - face.reach * heavy_from,
              dot(face.normal, to) - face.reach * heavy_to);
-      if (work_.hold.rank() == 3) return;
-      const Vector3 out = work_.hold.outside(from), out_end = work_.hold.outside(to);
+      if (lines.rank() == 3) return;
+      const Vector3 out = lines.outside(from), out_end = lines.outside(to);
       const double size = std::max(norm(from), norm(to));
       const auto beside = [&](const Vector3& f) { return norm(f) > 1e-12 * size ? norm(f) : 0.0; };
       look(nullptr, beside(out), beside(out_end));
@@ -139,13 +175,14 @@ class CartSystem {
   Resumption depart(const CartDeparture& departure) {
     now_ = std::min(now_ + departure.delay, ground_.duration);
     state_.mode = CartMode::moving;
-    state_.lines.assign(model_.lines.size(), 0);
+    state_.lines.assign(model_.contacts(), 0);
     work_.knows_hold = false;
     std::fill(work_.fresh.begin(), work_.fresh.end(), std::uint8_t{0});
     bool known = false;
-    if (departure.beyond || departure.tied) {
-      work_.asked.clear();
-      for (std::size_t l = 0; l < model_.lines.size(); ++l) work_.asked.push_back(l);
+    if (work_.hold.has_feet()) {
+      slaved_ = departure.beyond ? after_stop : from_rest;
+    } else if (departure.beyond || departure.tied) {
+      ask_all();
       if (departure.beyond) {
         solve(state_, now_);
         known = !work_.problem.rests();
@@ -160,7 +197,7 @@ class CartSystem {
     if (!known && departure.face != nullptr) {
       const Vector3 normal = *departure.face;
       for (std::size_t l = 0; l < model_.lines.size(); ++l) {
-        state_.lines[l] = static_cast<std::int8_t>(work_.hold.leaves(normal, l));
+        state_.lines[l] = static_cast<std::int8_t>(work_.hold.lines().leaves(normal, l));
         work_.fresh[l] = state_.lines[l] != 0 ? 2 : 0;
       }
     }
@@ -169,36 +206,60 @@ class CartSystem {
 
   CartSlide slide() {
     CartLeg& leg = work_.leg;
+    if (const auto now = at_once(); now != CartSlide::Now::leg) return {&leg, {}, now};
     for (int tries = 0;; ++tries) {
       leg.begin(state_, ground_, now_, never, work_.fresh);
       // Forces can jump where a segment begins.
       if (tries > 0 || !(leg.excess() > 1e-9)) break;
       decide_all();
+      if (const auto now = at_once(); now != CartSlide::Now::leg) return {&leg, {}, now};
     }
     return {&leg, leg.next()};
   }
 
   CartPassage passage(const CartSlide& slide) const noexcept {
+    if (!slide.moves()) return {true, {0}};
     if (slide.next.what == CartLeg::What::nothing) return {};
     return {true, {slide.next.time}};
   }
 
   void show(const CartSlide& slide, const CartSlide::Leg& leg, CartSink& sink) {
+    if (!slide.moves()) return;
     slide.leg->at(leg.time, work_.end);
     sink.follow(*slide.leg, now_, leg.time, work_.end);
   }
 
   bool pass(const CartSlide& slide, const CartPassage& passage, CartSink& sink) {
-    go(passage.leg);
+    using Now = CartSlide::Now;
+    using What = CartLeg::What;
+    if (slide.moves()) go(passage.leg);
     work_.before = state_.lines;
-    if (slide.next.what == CartLeg::What::face && slide.next.tied) {
+    if (slide.now == Now::halt) {
+      rest();
+      return true;
+    }
+    if (slide.now == Now::slaved) {
+      creep(sink);
+    } else if (slide.now == Now::slow_foot) {
+      ask(model_.slow);
+      solve(state_, now_);
+      sink.decide(work_.problem.gap());
+      bool goes = false;
+      for (std::size_t i = 0; i < work_.asked.size(); ++i)
+        goes = goes || (work_.asked[i] >= model_.lines.size() && work_.problem.slides(i) != 0);
+      if (goes)
+        slaved_ = after_stop;  // through a velocity of zero
+      else
+        take(1);
+    } else if (slide.next.what == What::foot) {
+      slaved_ = from_rest;
+      return left() > 0;
+    } else if (slide.next.what == What::face && slide.next.tied) {
       slide.leg->at(slide.next.time + a_little, work_.end);
-      work_.asked.clear();
-      for (std::size_t l = 0; l < model_.lines.size(); ++l)
-        if (state_.lines[l] == 0) work_.asked.push_back(l);
+      ask(-1);
       solve(work_.end, now_ + a_little);
       take(2);
-    } else if (slide.next.what == CartLeg::What::face) {
+    } else if (slide.next.what == What::face) {
       const Zonotope& stuck = slide.leg->stuck();
       const Vector3 normal = stuck.faces()[slide.next.which].normal;
       for (std::size_t j = 0; j < stuck.size(); ++j) {
@@ -211,16 +272,13 @@ class CartSystem {
         rest();
         return true;
       }
-      work_.asked.clear();
-      find_speeds();
-      for (std::size_t l = 0; l < model_.lines.size(); ++l)
-        if (l == slide.next.which || state_.lines[l] == 0 || std::abs(work_.speeds[l]) <= model_.slow)
-          work_.asked.push_back(l);
+      ask(model_.slow, slide.next.which);
       solve(state_, now_);
       sink.decide(work_.problem.gap());
       take(1);
     }
-    for (std::size_t l = 0; l < model_.lines.size(); ++l) {
+    if (at_rest()) return true;
+    for (std::size_t l = 0; l < model_.contacts(); ++l) {
       if (work_.before[l] == state_.lines[l]) continue;
       sink.happens(state_.lines[l] == 0   ? CartEventKind::stick
                    : work_.before[l] == 0 ? CartEventKind::slip
@@ -230,8 +288,9 @@ class CartSystem {
     if (now_ > mark_ + 1e-9) {
       mark_ = now_;
       hurries_ = 0;
-    } else if (++hurries_ > 30) {
-      creep();
+    } else if (slide.moves() && ++hurries_ > 30) {
+      hurries_ = 0;
+      slaved_ = hurried;
     }
     return left() > 0;
   }
@@ -272,25 +331,47 @@ class CartSystem {
 
   void find_hold() {
     if (work_.knows_hold) return;
-    work_.hold.clear();
-    for (const CartModel::Line& line : model_.lines) work_.hold.add(model_.row(line, state_), line.coefficient);
-    work_.hold.close();
+    work_.hold.set(model_, state_);
     work_.knows_hold = true;
   }
 
-  void find_speeds() {
-    const Vector3 y = model_.velocities(state_);
-    work_.speeds.resize(model_.lines.size());
-    for (std::size_t l = 0; l < model_.lines.size(); ++l)
-      work_.speeds[l] = state_.lines[l] == 0 ? 0 : dot(model_.row(model_.lines[l], state_), y);
+  double speed_of(const CartState& state, const Vector3& y, std::size_t l) const noexcept {
+    if (l < model_.lines.size()) return dot(model_.row(model_.lines[l], state), y);
+    const Vector2 v = CartModel::pivot(model_.wheels[model_.feet[l - model_.lines.size()].wheel], y);
+    return std::hypot(v.axis, v.transverse);
   }
   bool is_slow(double speed) const noexcept { return norm(model_.velocities(state_)) <= speed; }
+
+  // What comes without a leg.
+  CartSlide::Now at_once() const {
+    using Now = CartSlide::Now;
+    if (slaved_ > 0) return Now::slaved;
+    if (model_.feet.empty() || !(ground_.heavy(now_) > 0)) return Now::leg;
+    const Vector3 y = model_.velocities(state_);
+    if (norm(y) <= model_.slow) return Now::halt;
+    for (std::size_t l = model_.lines.size(); l < model_.contacts(); ++l)
+      if (state_.lines[l] != 0 && speed_of(state_, y, l) <= model_.slow) return Now::slow_foot;
+    return Now::leg;
+  }
+
+  // Asks for all that sticks, is slow, or is named.
+  void ask(double slow, std::size_t named = CartModel::none) {
+    const Vector3 y = model_.velocities(state_);
+    work_.asked.clear();
+    for (std::size_t l = 0; l < model_.contacts(); ++l)
+      if (l == named || state_.lines[l] == 0 || std::abs(speed_of(state_, y, l)) <= slow) work_.asked.push_back(l);
+  }
+  void ask_all() {
+    work_.asked.clear();
+    for (std::size_t l = 0; l < model_.contacts(); ++l) work_.asked.push_back(l);
+  }
 
   void rest() {
     state_.velocity = {};
     state_.yaw_rate = 0;
     state_.mode = CartMode::rest;
     state_.lines.clear();
+    slaved_ = 0;
     work_.knows_hold = false;
     stopped_ = true;
   }
@@ -324,6 +405,20 @@ class CartSystem {
         add_to(p, -state_.lines[l] * line.coefficient * heavy, row);
       }
     }
+    for (std::size_t f = 0; f < model_.feet.size(); ++f) {
+      const CartModel::Foot& foot = model_.feet[f];
+      const std::size_t l = model_.lines.size() + f;
+      const Vector3 axis = model_.row_axis(foot), transverse = model_.row_transverse(foot);
+      if (asks(l)) {
+        problem.add(axis, transverse, foot.coefficient * heavy);
+        continue;
+      }
+      const Vector2 v = CartModel::pivot(model_.wheels[foot.wheel], y);
+      const double speed = std::hypot(v.axis, v.transverse), force = foot.coefficient * heavy;
+      if (state_.lines[l] == 0 || !(speed > 0)) continue;
+      add_to(p, -force * v.axis / speed, axis);
+      add_to(p, -force * v.transverse / speed, transverse);
+    }
     problem.solve(p);
   }
   bool asks(std::size_t line) const noexcept {
@@ -346,61 +441,142 @@ class CartSystem {
   void settle_speeds() {
     Zonotope& stuck = work_.still;
     stuck.clear();
-    bool any = false;
     for (std::size_t l = 0; l < model_.lines.size(); ++l)
-      if (state_.lines[l] == 0) stuck.add(model_.row(model_.lines[l], state_), 0), any = true;
-    if (!any) return;
-    stuck.close();
-    if (stuck.rank() == 3) {
-      rest();
-      return;
+      if (state_.lines[l] == 0) stuck.add(model_.row(model_.lines[l], state_), 0);
+    for (std::size_t f = 0; f < model_.feet.size(); ++f) {
+      if (state_.lines[model_.lines.size() + f] != 0) continue;
+      stuck.add(model_.row_axis(model_.feet[f]), 0);
+      stuck.add(model_.row_transverse(model_.feet[f]), 0);
     }
-    model_.set_velocities(state_, stuck.outside(model_.velocities(state_)));
+    if (stuck.size() == 0) return;
+    stuck.close();
+    if (stuck.rank() == 3)
+      rest();
+    else
+      model_.set_velocities(state_, stuck.outside(model_.velocities(state_)));
   }
 
   // From velocities alone, or where forces have jumped.
   void decide_all() {
     const Vector3 y = model_.velocities(state_);
-    work_.asked.clear();
-    for (std::size_t l = 0; l < model_.lines.size(); ++l) {
-      const double sigma = dot(model_.row(model_.lines[l], state_), y);
-      if (state_.lines[l] == 0 && std::abs(sigma) > model_.slow)
-        state_.lines[l] = static_cast<std::int8_t>(sigma > 0 ? 1 : -1);
-      else if (state_.lines[l] == 0 || std::abs(sigma) <= model_.slow)
-        work_.asked.push_back(l);
+    for (std::size_t l = 0; l < model_.contacts(); ++l) {
+      const double speed = speed_of(state_, y, l);
+      if (state_.lines[l] == 0 && std::abs(speed) > model_.slow)
+        state_.lines[l] = static_cast<std::int8_t>(speed > 0 ? 1 : -1);
     }
+    ask(model_.slow);
     solve(state_, now_);
+    for (std::size_t i = 0; i < work_.asked.size(); ++i)
+      if (work_.asked[i] >= model_.lines.size() && work_.problem.slides(i) != 0) {
+        slaved_ = after_stop;
+        return;
+      }
     take(1);
   }
 
-  // Where events follow each other without progress of time, noise decides the signs: all slow lines are asked for a short
-  // time.
-  void creep() {
-    hurries_ = 0;
-    find_speeds();
-    work_.asked.clear();
-    for (std::size_t l = 0; l < model_.lines.size(); ++l)
-      if (state_.lines[l] == 0 || std::abs(work_.speeds[l]) <= model_.steady) work_.asked.push_back(l);
+  // A short step along the acceleration of the problem, where what begins to slide is slaved to its force, or where noise
+  // decides signs: by Gauss collocation with three points.
+  void creep(CartSink& sink) {
+    ask(equal(slaved_, hurried) ? model_.steady : model_.slow);
+    double h = std::min(std::exchange(slaved_, 0), left());
+    const std::size_t casters = model_.casters, contacts = model_.contacts();
+    static const double root = std::sqrt(15.0);
+    const double nodes[3] = {0.5 - root / 10, 0.5, 0.5 + root / 10}, weights[3] = {5.0 / 18, 4.0 / 9, 5.0 / 18};
+    const double a[3][3] = {{5.0 / 36, 2.0 / 9 - root / 15, 5.0 / 36 - root / 30},
+                            {5.0 / 36 + root / 24, 2.0 / 9, 5.0 / 36 - root / 24},
+                            {5.0 / 36 + root / 30, 2.0 / 9 + root / 15, 5.0 / 36}};
+    const Vector3 y0 = model_.velocities(state_);
+    CartState& stage = work_.stage;
+    stage = state_;
+    Vector3 rates[3]{}, speeds[3]{};
+    Vector2 ways[3]{};
+    double yaws[3]{}, input = 0;
+    const auto place = [&](const double(&by)[3]) {  // the state after parts of the step
+      Vector3 y = y0;
+      double yaw = state_.yaw;
+      Vector2 x = state_.displacement;
+      for (std::size_t j = 0; j < 3; ++j) {
+        add_to(y, h * by[j], rates[j]);
+        yaw += h * by[j] * yaws[j];
+        x += h * by[j] * ways[j];
+      }
+      for (std::size_t c = 0; c < casters; ++c) {
+        stage.headings[c] = state_.headings[c];
+        for (std::size_t j = 0; j < 3; ++j) stage.headings[c] += h * by[j] * work_.turning[3 * c + j];
+      }
+      stage.yaw = yaw;
+      stage.displacement = x;
+      model_.set_velocities(stage, y);
+      return y;
+    };
+    for (int tries = 0;; ++tries, h /= 2) {
+      for (std::size_t j = 0; j < 3; ++j) rates[j] = {}, ways[j] = {}, yaws[j] = 0;
+      std::fill(work_.turning.begin(), work_.turning.end(), 0.0);
+      work_.work.assign(contacts, 0);
+      input = 0;
+      for (int rounds = 0; rounds < 12; ++rounds) {
+        double change = 0, size = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+          const Vector3 y = place(a[i]);
+          speeds[i] = y;
+          solve(stage, now_ + nodes[i] * h);
+          const Vector3 rate = work_.problem.acceleration();
+          for (std::size_t n = 0; n < 3; ++n) change = std::max(change, std::abs(rate[n] - rates[i][n]));
+          size = std::max(size, norm(rate));
+          rates[i] = rate;
+          ways[i] = stage.velocity;
+          yaws[i] = stage.yaw_rate;
+          for (const CartModel::Wheel& wheel : model_.wheels) {
+            if (wheel.caster == CartModel::none) continue;
+            const Vector2 e = model_.direction(wheel, stage), v = CartModel::pivot(wheel, y);
+            work_.turning[3 * wheel.caster + i] = stickslip::cross(e, v) * wheel.per_reach - stage.yaw_rate;
+          }
+        }
+        if (change <= 1e-15 * size) break;
+      }
+      // A line that slid meanwhile must not have turned.
+      bool turned = false;
+      const Vector3 y = place(weights);
+      for (std::size_t l = 0; l < model_.lines.size(); ++l)
+        turned = turned || (!asks(l) && state_.lines[l] * speed_of(stage, y, l) < -model_.slow);
+      if (!turned || tries > 20) break;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      place(a[i]);
+      const Vector3 load = load_at(stage, now_ + nodes[i] * h);
+      const double heavy = weight_at(now_ + nodes[i] * h);
+      input += h * weights[i] * dot(load, speeds[i]);
+      for (std::size_t l = 0; l < contacts; ++l) {
+        const double level =
+            l < model_.lines.size() ? model_.lines[l].coefficient : model_.feet[l - model_.lines.size()].coefficient;
+        work_.work[l] += h * weights[i] * level * heavy * std::abs(speed_of(stage, speeds[i], l));
+      }
+    }
+    const Vector3 y = place(weights);
+    const double begin = now_;
+    now_ = h < left() ? ground_.duration - pass_time(left(), h) : ground_.duration;
+    std::swap(state_.headings, stage.headings);
+    state_.displacement = stage.displacement;
+    state_.velocity = stage.velocity;
+    state_.yaw = stage.yaw;
+    state_.yaw_rate = stage.yaw_rate;
     solve(state_, now_);
+    sink.creep(begin, h, input, work_.work, state_);
     if (work_.problem.rests() && is_slow(model_.steady)) {
       rest();
       return;
     }
-    const double dt = std::min(1e-9, left());
-    Vector3 y = model_.velocities(state_);
-    for (const CartModel::Wheel& wheel : model_.wheels) {
-      if (wheel.caster == CartModel::none) continue;
-      const Vector2 e = model_.direction(wheel, state_), v = CartModel::pivot(wheel, y);
-      state_.headings[wheel.caster] += dt * (stickslip::cross(e, v) * wheel.per_reach - state_.yaw_rate);
+    for (std::size_t i = 0; i < work_.asked.size(); ++i) {
+      const std::size_t l = work_.asked[i];
+      const double speed = speed_of(state_, y, l);
+      const int slides = work_.problem.slides(i);
+      state_.lines[l] = static_cast<std::int8_t>(slides == 0 ? 0 : speed > 0 ? 1 : speed < 0 ? -1 : slides);
     }
-    state_.displacement += dt * state_.velocity;
-    state_.yaw += dt * state_.yaw_rate;
-    add_to(y, dt, work_.problem.acceleration());
-    model_.set_velocities(state_, y);
-    now_ = dt < left() ? ground_.duration - pass_time(left(), dt) : ground_.duration;
-    state_.lines.assign(model_.lines.size(), 0);
-    decide_all();
+    std::fill(work_.fresh.begin(), work_.fresh.end(), std::uint8_t{0});
+    settle_speeds();
   }
+
+  static constexpr double from_rest = 1e-3, after_stop = 1e-5, hurried = 1e-9;  // short steps [s]
 
   CartWorkspace& work_;
   const CartModel& model_;
@@ -409,6 +585,7 @@ class CartSystem {
   double now_ = 0;  // since the beginning of the segment [s]
   double mark_ = -1;
   int hurries_ = 0;
+  double slaved_ = 0;  // a short step is due [s]
   bool stopped_ = false;
 };
 

@@ -93,6 +93,7 @@ class Zonotope {
   /// Both faces of each pair.
   const std::vector<Face>& faces() const noexcept { return faces_; }
   const Vector3& row(std::size_t j) const noexcept { return rows_[j]; }
+  double level(std::size_t j) const noexcept { return levels_[j]; }
 
   /// The part of a vector outside the span of the rows.
   Vector3 outside(Vector3 f) const noexcept {

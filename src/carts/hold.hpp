@@ -1,0 +1,81 @@
+// What a cart at rest can carry.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "carts/acceleration.hpp"
+#include "carts/model.hpp"
+#include "carts/zonotope.hpp"
+#include "stickslip/flow/closed_form.hpp"
+
+namespace stickslip::detail {
+
+/// The loads that a resting cart carries, over its weight: a zonotope of its lines, to which each foot adds a disc.
+class CartHold {
+ public:
+  CartHold() = default;
+  CartHold(const CartModel& model, const CartState& state) { set(model, state); }
+
+  void set(const CartModel& model, const CartState& state) {
+    lines_.clear();
+    feet_.clear();
+    for (const CartModel::Line& line : model.lines) lines_.add(model.row(line, state), line.coefficient);
+    for (const CartModel::Foot& foot : model.feet)
+      feet_.push_back({model.row_axis(foot), model.row_transverse(foot), foot.coefficient});
+    lines_.close();
+  }
+
+  const Zonotope& lines() const noexcept { return lines_; }
+  bool has_feet() const noexcept { return !feet_.empty(); }
+
+  /// The largest load that is carried against a direction: sum level |u.row| + sum level |J u|.
+  double support(const Vector3& u) const noexcept {
+    double sum = 0;
+    for (std::size_t j = 0; j < lines_.size(); ++j) sum += lines_.level(j) * std::abs(dot(u, lines_.row(j)));
+    for (const Disc& foot : feet_) sum += foot.level * std::hypot(dot(u, foot.axis), dot(u, foot.transverse));
+    return sum;
+  }
+  /// Where a load leaves what holds, with weight N: a normal to its surface. False if it does not.
+  bool leaves(const Vector3& load, double weight, Vector3& normal) {
+    problem_.clear();
+    for (std::size_t j = 0; j < lines_.size(); ++j) problem_.add(lines_.row(j), 0, weight * lines_.level(j));
+    for (const Disc& foot : feet_) problem_.add(foot.axis, foot.transverse, weight * foot.level);
+    problem_.solve(load);
+    if (problem_.rests()) return false;
+    normal = scaled(1 / norm(problem_.acceleration()), problem_.acceleration());
+    return true;
+  }
+  /// The largest multiple of a load that is carried.
+  double along(const Vector3& load) {
+    if (feet_.empty()) {
+      if (norm(lines_.outside(load)) > 1e-12 * norm(load)) return 0;
+      double least = std::numeric_limits<double>::infinity();
+      for (const Zonotope::Face& face : lines_.faces())
+        if (const double to = dot(face.normal, load); to > 0) least = std::min(least, face.reach / to);
+      return least;
+    }
+    // From outside each plane cuts nearer.
+    Vector3 normal = scaled(1 / norm(load), load);
+    double most = support(normal) / dot(normal, load);
+    for (int steps = 0; steps < 100 && leaves(scaled(most, load), 1, normal); ++steps) {
+      const double next = support(normal) / dot(normal, load);
+      if (!(next < most)) break;
+      most = next;
+    }
+    return most;
+  }
+
+ private:
+  struct Disc {
+    Vector3 axis, transverse;
+    double level;
+  };
+  Zonotope lines_;
+  std::vector<Disc> feet_;
+  AccelerationProblem problem_;
+};
+
+}  // namespace stickslip::detail
