@@ -22,7 +22,7 @@ Vector3 solve_symmetric(const double (&h)[6], const Vector3& b) noexcept {
   return x;
 }
 
-constexpr double last_barrier = 1e-12;
+constexpr int last_barrier = 12;  // its negative power of 10
 // What decides within this part of the accelerations is a tie.
 constexpr double tie = 1e-10;
 
@@ -42,6 +42,7 @@ double AccelerationProblem::scale_of(const Vector3& p) const noexcept {
 // lambda x + mu log(L^2 - lambda^2).
 Vector3 AccelerationProblem::barrier(const Vector3& p, double scale) {
   Vector3 a{};
+  rates_.assign(lines_.size(), 0);
   const Vector3 target = scaled(1 / scale, p);
   const auto push = [](double x, double level, double mu) {
     const double q = std::hypot(mu, x * level);
@@ -63,7 +64,10 @@ Vector3 AccelerationProblem::barrier(const Vector3& p, double scale) {
     }
     return f;
   };
-  for (double mu = 1; mu >= last_barrier; mu *= 0.1) {
+  for (int tens = 0; tens <= last_barrier; ++tens) {
+    const double mu = std::pow(10.0, -tens);
+    if (tens == last_barrier - 1)
+      for (std::size_t j = 0; j < lines_.size(); ++j) rates_[j] = lines_[j].rate(a, scale);
     Vector3 f = residual(a, mu);
     for (int steps = 0; steps < 30; ++steps) {
       double h[6] = {1, 0, 0, 1, 0, 1};
@@ -156,6 +160,12 @@ AccelerationProblem::Trial AccelerationProblem::attempt(const Vector3& p, double
       trial.gap = std::min(trial.gap, modes[j] * x);
     }
   }
+  // What a foot that sticks can carry is not checked: then the mode must lead to where the barrier does.
+  if (foot_sticks) {
+    Vector3 off = trial.a;
+    add_to(off, -1, guess);
+    trial.violation = std::max(trial.violation, norm(off) / scale - 1e-5);
+  }
   if (stuck_.rank() > 0 && !foot_sticks) {
     for (std::size_t j = 0; j < lines_.size(); ++j) {
       if (modes[j] == 0 || !lines_[j].foot) continue;
@@ -235,13 +245,13 @@ void AccelerationProblem::solve(const Vector3& p) {
     return;
   }
   const Vector3 guess = barrier(p, scale);
-  // x (L - |lambda|) is about the barrier parameter: what is small decides.
+  // x (L - |lambda|) is about the barrier parameter, and two powers of ten lie between both rates: of what sticks x falls with it, of what slides L - |lambda|.
   certainty_.resize(count);
   for (std::size_t j = 0; j < count; ++j) {
-    const double x = lines_[j].rate(guess, scale);
-    const double size = std::abs(x) / std::sqrt(last_barrier);
-    modes_[j] = static_cast<std::int8_t>(size < 1 ? 0 : x > 0 ? 1 : -1);
-    certainty_[j] = std::abs(std::log(std::max(size, 1e-300)));
+    const double x = lines_[j].rate(guess, scale), before = rates_[j];
+    const double falls = std::abs(before) / std::max(std::abs(x), 1e-300);
+    modes_[j] = static_cast<std::int8_t>(falls > 10 ? 0 : x > 0 ? 1 : -1);
+    certainty_[j] = std::abs(std::log(std::max(falls, 1e-300) / 10));
   }
   Trial best = attempt(p, scale, modes_, scaled(scale, guess));
   if (best.violation > tie) {

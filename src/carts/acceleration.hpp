@@ -34,6 +34,7 @@ class AccelerationProblem {
   const Vector3& acceleration() const noexcept { return a_; }
   /// +1 or -1, of a foot +1; 0 if it sticks.
   int slides(std::size_t j) const noexcept { return modes_[j]; }
+  const std::vector<std::int8_t>& slides() const noexcept { return modes_; }
   /// Whether nothing accelerates.
   bool rests() const noexcept { return rests_; }
   /// How far the mode is from another one, over the accelerations that take part.
@@ -64,7 +65,7 @@ class AccelerationProblem {
 
   std::vector<Line> lines_;
   std::vector<std::int8_t> modes_, tried_;
-  std::vector<double> certainty_, betas_;
+  std::vector<double> certainty_, betas_, rates_;
   std::vector<std::size_t> doubtful_;
   Zonotope stuck_;
   Vector3 a_{};

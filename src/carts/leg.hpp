@@ -147,6 +147,12 @@ class CartLeg {
       if (fresh_[l] == 0 && w[0] < model_.slow) w[0] = std::max(w[0], 0.0);
       look(What::line, l, order_);
     }
+    // While the cart turns about a point, a foot can stop on a straight way: |V| changes its sign.
+    for (std::size_t f = 0; f < model_.feet.size(); ++f) {
+      if (state_->lines[model_.lines.size() + f] == 0 || !(slides_[f].speed[0] > 0)) continue;
+      for (int k = 0; k <= order_; ++k) w[k] = slides_[f].speed[static_cast<std::size_t>(k)];
+      look(What::line, model_.lines.size() + f, order_);
+    }
     return first;
   }
 

@@ -58,6 +58,7 @@ struct CartWorkspace {
   CartState stage;                  // of a step
   std::vector<double> turning;      // rates of the headings at three points of a step
   std::vector<double> work;
+  std::vector<std::int8_t> modes;  // at the first of these points
 };
 
 struct CartDeparture {
@@ -241,16 +242,7 @@ class CartSystem {
     if (slide.now == Now::slaved) {
       creep(sink);
     } else if (slide.now == Now::slow_foot) {
-      ask(model_.slow);
-      solve(state_, now_);
-      sink.decide(work_.problem.gap());
-      bool goes = false;
-      for (std::size_t i = 0; i < work_.asked.size(); ++i)
-        goes = goes || (work_.asked[i] >= model_.lines.size() && work_.problem.slides(i) != 0);
-      if (goes)
-        slaved_ = after_stop;  // through a velocity of zero
-      else
-        take(1);
+      decide(CartModel::none, sink);
     } else if (slide.next.what == What::foot) {
       slaved_ = from_rest;
       return left() > 0;
@@ -272,10 +264,7 @@ class CartSystem {
         rest();
         return true;
       }
-      ask(model_.slow, slide.next.which);
-      solve(state_, now_);
-      sink.decide(work_.problem.gap());
-      take(1);
+      decide(slide.next.which, sink);
     }
     if (at_rest()) return true;
     for (std::size_t l = 0; l < model_.contacts(); ++l) {
@@ -425,6 +414,23 @@ class CartSystem {
     return std::binary_search(work_.asked.begin(), work_.asked.end(), line);
   }
 
+  // What sticks or slides of all that is slow, and of one that is named.
+  void decide(std::size_t named, CartSink& sink) {
+    ask(model_.slow, named);
+    solve(state_, now_);
+    sink.decide(work_.problem.gap());
+    take_or_creep();
+  }
+  // A foot that goes on through a velocity of zero starts anew.
+  void take_or_creep() {
+    for (std::size_t i = 0; i < work_.asked.size(); ++i)
+      if (work_.asked[i] >= model_.lines.size() && work_.problem.slides(i) != 0) {
+        slaved_ = after_stop;
+        return;
+      }
+    take(1);
+  }
+
   // The mode that the problem found.
   // @param begins  how many of the first derivatives of a new slip vanish
   void take(std::uint8_t begins) {
@@ -466,12 +472,7 @@ class CartSystem {
     }
     ask(model_.slow);
     solve(state_, now_);
-    for (std::size_t i = 0; i < work_.asked.size(); ++i)
-      if (work_.asked[i] >= model_.lines.size() && work_.problem.slides(i) != 0) {
-        slaved_ = after_stop;
-        return;
-      }
-    take(1);
+    take_or_creep();
   }
 
   // A short step along the acceleration of the problem, where what begins to slide is slaved to its force, or where noise
@@ -520,6 +521,7 @@ class CartSystem {
           const Vector3 y = place(a[i]);
           speeds[i] = y;
           solve(stage, now_ + nodes[i] * h);
+          if (i == 0) work_.modes = work_.problem.slides();
           const Vector3 rate = work_.problem.acceleration();
           for (std::size_t n = 0; n < 3; ++n) change = std::max(change, std::abs(rate[n] - rates[i][n]));
           size = std::max(size, norm(rate));
@@ -534,12 +536,13 @@ class CartSystem {
         }
         if (change <= 1e-15 * size) break;
       }
-      // A line that slid meanwhile must not have turned.
-      bool turned = false;
+      // The mode is one throughout, and a line that slid meanwhile has not turned.
       const Vector3 y = place(weights);
+      solve(stage, now_ + h);
+      bool turned = work_.modes != work_.problem.slides();
       for (std::size_t l = 0; l < model_.lines.size(); ++l)
         turned = turned || (!asks(l) && state_.lines[l] * speed_of(stage, y, l) < -model_.slow);
-      if (!turned || tries > 20) break;
+      if (!turned || tries > 12) break;
     }
     for (std::size_t i = 0; i < 3; ++i) {
       place(a[i]);
