@@ -182,7 +182,10 @@ AccelerationProblem::Trial AccelerationProblem::attempt(const Vector3& p, double
 }
 
 // Newton's method for the directions of the feet that slide, within what the rows that stick leave free.
+// Near a tie, where all rates are round-off, the guess stays.
 Vector3 AccelerationProblem::slide_feet(const Vector3& target, const std::vector<std::int8_t>& modes, Vector3 a) const {
+  const Vector3 start = a;
+  const double least = tie * norm(target);
   for (int steps = 0; steps < 40; ++steps) {
     Vector3 f = a;
     add_to(f, -1, target);
@@ -191,7 +194,7 @@ Vector3 AccelerationProblem::slide_feet(const Vector3& target, const std::vector
       const Line& line = lines_[j];
       if (!line.foot || modes[j] == 0) continue;
       const double x = dot(line.row, a), z = dot(line.other, a), speed = std::hypot(x, z);
-      if (!(speed > 0)) return a;
+      if (!(speed > least)) return start;
       add_to(f, line.level * x / speed, line.row);
       add_to(f, line.level * z / speed, line.other);
       Vector3 across = scaled(-z / speed, line.row);
@@ -230,7 +233,7 @@ Vector3 AccelerationProblem::slide_feet(const Vector3& target, const std::vector
     add_to(a, -part, step);
     if (norm(step) <= 1e-16 * (norm(a) + norm(step))) break;
   }
-  return a;
+  return norm(a) <= 2 * norm(target) + norm(start) ? a : start;
 }
 
 void AccelerationProblem::solve(const Vector3& p) {

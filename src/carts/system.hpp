@@ -94,7 +94,7 @@ struct CartPassage {
 /// A cart during one segment (a SlidingSystem).
 class CartSystem {
  public:
-  static constexpr int most_steps = 1'000'000;
+  static constexpr int most_steps = 100'000;
   static constexpr double a_little = 1e-6;  // after which a tie is decided [s]
 
   CartSystem(CartWorkspace& work, const CartSegment& ground, CartState& state)
@@ -476,9 +476,13 @@ class CartSystem {
   }
 
   // A short step along the acceleration of the problem, where what begins to slide is slaved to its force, or where noise
-  // decides signs: by Gauss collocation with three points.
+  // decides signs: by Gauss collocation with three points. Out of rest the velocity has the direction u of the acceleration,
+  // whose friction holds it there: y = u times the integral of |a|. It lags behind by |y| |u'|/L, which enters squared.
   void creep(CartSink& sink) {
-    ask(equal(slaved_, hurried) ? model_.steady : model_.slow);
+    if (slaving_)
+      ask_all();
+    else
+      ask(equal(slaved_, hurried) ? model_.steady : model_.slow);
     double h = std::min(std::exchange(slaved_, 0), left());
     const std::size_t casters = model_.casters, contacts = model_.contacts();
     static const double root = std::sqrt(15.0);
@@ -487,17 +491,29 @@ class CartSystem {
                             {5.0 / 36 + root / 24, 2.0 / 9, 5.0 / 36 - root / 24},
                             {5.0 / 36 + root / 30, 2.0 / 9 + root / 15, 5.0 / 36}};
     const Vector3 y0 = model_.velocities(state_);
+    const double speed0 = norm(y0);
+    const bool whole = work_.asked.size() == contacts && (slaving_ || !(speed0 > 0)) && !model_.feet.empty();
+    slaving_ = false;
+    const Vector3 first = whole && speed0 > 0 ? scaled(1 / speed0, y0) : Vector3{};
     CartState& stage = work_.stage;
     stage = state_;
-    Vector3 rates[3]{}, speeds[3]{};
+    Vector3 rates[3]{}, speeds[3]{}, last{};  // last: the direction at the end
+    double lag = 0;
     Vector2 ways[3]{};
     double yaws[3]{}, input = 0;
-    const auto place = [&](const double(&by)[3]) {  // the state after parts of the step
+    // The state after parts of the step.
+    const auto place = [&](const double(&by)[3], const Vector3& way) {
       Vector3 y = y0;
+      if (whole) {
+        double speed = speed0;
+        for (std::size_t j = 0; j < 3; ++j) speed += h * by[j] * norm(rates[j]);
+        const double size = norm(way);
+        y = size > 0 ? scaled(speed / size, way) : Vector3{};
+      }
       double yaw = state_.yaw;
       Vector2 x = state_.displacement;
       for (std::size_t j = 0; j < 3; ++j) {
-        add_to(y, h * by[j], rates[j]);
+        if (!whole) add_to(y, h * by[j], rates[j]);
         yaw += h * by[j] * yaws[j];
         x += h * by[j] * ways[j];
       }
@@ -518,7 +534,7 @@ class CartSystem {
       for (int rounds = 0; rounds < 12; ++rounds) {
         double change = 0, size = 0;
         for (std::size_t i = 0; i < 3; ++i) {
-          const Vector3 y = place(a[i]);
+          const Vector3 y = place(a[i], rates[i]);
           speeds[i] = y;
           solve(stage, now_ + nodes[i] * h);
           if (i == 0) work_.modes = work_.problem.slides();
@@ -537,15 +553,18 @@ class CartSystem {
         if (change <= 1e-15 * size) break;
       }
       // The mode is one throughout, and a line that slid meanwhile has not turned.
-      const Vector3 y = place(weights);
+      Vector3 y = place(weights, rates[2]);
       solve(stage, now_ + h);
-      bool turned = work_.modes != work_.problem.slides();
+      last = work_.problem.acceleration();
+      if (whole) y = place(weights, last);
+      lag = whole ? lag_of(first, rates, last, norm(y), h) : 0;
+      bool turned = lag > 1e-3 || (whole && !(norm(last) > 0)) || work_.modes != work_.problem.slides();
       for (std::size_t l = 0; l < model_.lines.size(); ++l)
         turned = turned || (!asks(l) && state_.lines[l] * speed_of(stage, y, l) < -model_.slow);
       if (!turned || tries > 12) break;
     }
     for (std::size_t i = 0; i < 3; ++i) {
-      place(a[i]);
+      place(a[i], rates[i]);
       const Vector3 load = load_at(stage, now_ + nodes[i] * h);
       const double heavy = weight_at(now_ + nodes[i] * h);
       input += h * weights[i] * dot(load, speeds[i]);
@@ -555,7 +574,7 @@ class CartSystem {
         work_.work[l] += h * weights[i] * level * heavy * std::abs(speed_of(stage, speeds[i], l));
       }
     }
-    const Vector3 y = place(weights);
+    const Vector3 y = place(weights, last);
     const double begin = now_;
     now_ = h < left() ? ground_.duration - pass_time(left(), h) : ground_.duration;
     std::swap(state_.headings, stage.headings);
@@ -577,6 +596,26 @@ class CartSystem {
     }
     std::fill(work_.fresh.begin(), work_.fresh.end(), std::uint8_t{0});
     settle_speeds();
+    // As long as the acceleration is small beside friction, a series would take steps of |y|/L.
+    if (!whole || at_rest() || !(lag < 1e-4) || !(norm(last) < 0.05 * least_level())) return;
+    slaved_ = lag < 1e-5 ? 2 * h : h;
+    slaving_ = true;
+  }
+  // How far the velocity lags behind the acceleration: an angle.
+  double lag_of(const Vector3& first, const Vector3 (&rates)[3], const Vector3& last, double speed, double h) const {
+    const auto turn = [](const Vector3& u, const Vector3& v) {
+      const double sizes = norm(u) * norm(v);
+      return sizes > 0 ? norm(detail::cross(u, v)) / sizes : 0;
+    };
+    const double angle = std::max(turn(norm(first) > 0 ? first : rates[0], last), turn(rates[1], last));
+    const double level = least_level();
+    return level > 0 && h > 0 ? speed * angle / (h * level) : 0;
+  }
+  // The least friction of a foot [m/s^2].
+  double least_level() const noexcept {
+    double least = never;
+    for (const CartModel::Foot& foot : model_.feet) least = std::min(least, foot.coefficient);
+    return least * weight_at(now_);
   }
 
   static constexpr double from_rest = 1e-3, after_stop = 1e-5, hurried = 1e-9;  // short steps [s]
@@ -588,7 +627,8 @@ class CartSystem {
   double now_ = 0;  // since the beginning of the segment [s]
   double mark_ = -1;
   int hurries_ = 0;
-  double slaved_ = 0;  // a short step is due [s]
+  double slaved_ = 0;     // a short step is due [s]
+  bool slaving_ = false;  // it goes on one before
   bool stopped_ = false;
 };
 
