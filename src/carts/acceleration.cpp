@@ -113,7 +113,9 @@ AccelerationProblem::Trial AccelerationProblem::attempt(const Vector3& p, double
   Vector3 target = p;
   stuck_.clear();
   betas_.clear();
-  bool foot_sticks = false, foot_slides = false;
+  bool foot_slides = false;
+  std::size_t feet_stuck = 0;
+  double foot_level = 0;
   for (std::size_t j = 0; j < lines_.size(); ++j) {
     const Line& line = lines_[j];
     if (modes[j] != 0) {
@@ -128,7 +130,8 @@ AccelerationProblem::Trial AccelerationProblem::attempt(const Vector3& p, double
     if (!line.foot) continue;
     stuck_.add(line.other, line.level);
     betas_.push_back(0);
-    foot_sticks = true;
+    ++feet_stuck;
+    foot_level = line.level;
   }
   stuck_.close();
 
@@ -160,13 +163,7 @@ AccelerationProblem::Trial AccelerationProblem::attempt(const Vector3& p, double
       trial.gap = std::min(trial.gap, modes[j] * x);
     }
   }
-  // What a foot that sticks can carry is not checked: then the mode must lead to where the barrier does.
-  if (foot_sticks) {
-    Vector3 off = trial.a;
-    add_to(off, -1, guess);
-    trial.violation = std::max(trial.violation, norm(off) / scale - 1e-5);
-  }
-  if (stuck_.rank() > 0 && !foot_sticks) {
+  if (stuck_.rank() > 0) {
     for (std::size_t j = 0; j < lines_.size(); ++j) {
       if (modes[j] == 0 || !lines_[j].foot) continue;
       const double x = dot(lines_[j].row, trial.a), z = dot(lines_[j].other, trial.a), speed = std::hypot(x, z);
@@ -174,7 +171,17 @@ AccelerationProblem::Trial AccelerationProblem::attempt(const Vector3& p, double
       add_to(carried, -lines_[j].level * x / speed, lines_[j].row);
       add_to(carried, -lines_[j].level * z / speed, lines_[j].other);
     }
-    const double margin = stuck_.margin(carried) / scale;
+    double margin;
+    if (feet_stuck == 0) {
+      margin = stuck_.margin(carried) / scale;
+    } else if (feet_stuck == 1 && stuck_.size() == 2) {
+      margin = (foot_level - std::hypot(carried[0], carried[1])) / scale;  // its rows are (1, 0, .) and (0, 1, .)
+    } else {
+      // What several feet, or a foot with lines, carry together is not checked: the mode must lead to where the barrier does.
+      Vector3 off = trial.a;
+      add_to(off, -1, guess);
+      margin = 1e-5 - norm(off) / scale;
+    }
     trial.violation = std::max(trial.violation, -margin);
     trial.gap = std::min(trial.gap, margin);
   }

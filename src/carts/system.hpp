@@ -485,6 +485,14 @@ class CartSystem {
       ask(equal(slaved_, hurried) ? model_.steady : model_.slow);
     double h = std::min(std::exchange(slaved_, 0), left());
     const std::size_t casters = model_.casters, contacts = model_.contacts();
+    // The direction of a foot that slides changes within |V|/L.
+    for (const CartModel::Foot& foot : model_.feet) {
+      const std::size_t l = model_.lines.size() + static_cast<std::size_t>(&foot - model_.feet.data());
+      const double level = foot.coefficient * weight_at(now_),
+                   lever = std::hypot(model_.wheels[foot.wheel].lever_x, model_.wheels[foot.wheel].lever_y);
+      if (!asks(l) && level > 0)
+        h = std::min(h, 0.05 * speed_of(state_, model_.velocities(state_), l) / (level * (1 + lever * lever)));
+    }
     static const double root = std::sqrt(15.0);
     const double nodes[3] = {0.5 - root / 10, 0.5, 0.5 + root / 10}, weights[3] = {5.0 / 18, 4.0 / 9, 5.0 / 18};
     const double a[3][3] = {{5.0 / 36, 2.0 / 9 - root / 15, 5.0 / 36 - root / 30},
@@ -591,8 +599,8 @@ class CartSystem {
     for (std::size_t i = 0; i < work_.asked.size(); ++i) {
       const std::size_t l = work_.asked[i];
       const double speed = speed_of(state_, y, l);
-      const int slides = work_.problem.slides(i);
-      state_.lines[l] = static_cast<std::int8_t>(slides == 0 ? 0 : speed > 0 ? 1 : speed < 0 ? -1 : slides);
+      state_.lines[l] =
+          static_cast<std::int8_t>(std::abs(speed) > model_.slow ? (speed > 0 ? 1 : -1) : work_.problem.slides(i));
     }
     std::fill(work_.fresh.begin(), work_.fresh.end(), std::uint8_t{0});
     settle_speeds();
