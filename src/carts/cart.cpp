@@ -210,6 +210,7 @@ CartModel::CartModel(const Cart& cart)
   for (const Vector2& corner : cart.outline()) outline.push_back(corner - cart.center());
   const double speed = std::sqrt(standard_gravity * gyration);
   slow = 1e-13 * speed;
+  halted = 1e-10 * speed;
   steady = 1e-9 * speed;
 }
 

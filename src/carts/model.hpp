@@ -49,6 +49,7 @@ struct CartModel {
   std::size_t casters;
   double gyration;        // k [m]
   double slow;            // a speed that is round-off [m/s]
+  double halted;          // a speed from which a cart on feet stops at once: it would go 1e-20 m [m/s]
   double steady;          // speeds below are tried where events follow each other without time [m/s]
   double shortest_reach;  // [m]; infinite without casters
 

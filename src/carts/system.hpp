@@ -50,6 +50,7 @@ struct CartWorkspace {
   AccelerationProblem problem;
   CartHold hold;  // while it rests
   bool knows_hold = false;
+  bool slaving = false;             // a slow start goes on in the next segment
   std::vector<std::uint8_t> fresh;  // as CartLeg::begin
   std::vector<std::size_t> asked;   // the lines of the problem
   CartState end;                    // of the leg
@@ -103,6 +104,10 @@ class CartSystem {
     if (state_.mode == CartMode::moving && state_.lines.size() != model_.contacts()) {
       state_.lines.assign(model_.contacts(), 0);
       decide_all();
+    }
+    if (std::exchange(work_.slaving, false)) {
+      slaved_ = from_rest;
+      slaving_ = true;
     }
   }
 
@@ -337,7 +342,7 @@ class CartSystem {
     if (slaved_ > 0) return Now::slaved;
     if (model_.feet.empty() || !(ground_.heavy(now_) > 0)) return Now::leg;
     const Vector3 y = model_.velocities(state_);
-    if (norm(y) <= model_.slow) return Now::halt;
+    if (norm(y) <= model_.halted) return Now::halt;
     for (std::size_t l = model_.lines.size(); l < model_.contacts(); ++l)
       if (state_.lines[l] != 0 && speed_of(state_, y, l) <= model_.slow) return Now::slow_foot;
     return Now::leg;
@@ -361,6 +366,7 @@ class CartSystem {
     state_.mode = CartMode::rest;
     state_.lines.clear();
     slaved_ = 0;
+    slaving_ = false;
     work_.knows_hold = false;
     stopped_ = true;
   }
@@ -608,6 +614,7 @@ class CartSystem {
     if (!whole || at_rest() || !(lag < 1e-4) || !(norm(last) < 0.05 * least_level())) return;
     slaved_ = lag < 1e-5 ? 2 * h : h;
     slaving_ = true;
+    work_.slaving = !(left() > 0);
   }
   // How far the velocity lags behind the acceleration: an angle.
   double lag_of(const Vector3& first, const Vector3 (&rates)[3], const Vector3& last, double speed, double h) const {
