@@ -485,10 +485,19 @@ class CartSystem {
   // decides signs: by Gauss collocation with three points. Out of rest the velocity has the direction u of the acceleration,
   // whose friction holds it there: y = u times the integral of |a|. It lags behind by |y| |u'|/L, which enters squared.
   void creep(CartSink& sink) {
-    if (slaving_)
+    if (slaving_) {
       ask_all();
-    else
+      // Forces can jump where a segment begins, or fall back to what holds.
+      solve(state_, now_);
+      const Vector3 rate = work_.problem.acceleration(), y = model_.velocities(state_);
+      if (!(dot(rate, y) > (1 - 1e-4) * norm(rate) * norm(y)) || !(norm(rate) > 1e-5 * least_level())) {
+        slaved_ = 0;
+        slaving_ = false;
+        return;
+      }
+    } else {
       ask(equal(slaved_, hurried) ? model_.steady : model_.slow);
+    }
     double h = std::min(std::exchange(slaved_, 0), left());
     const std::size_t casters = model_.casters, contacts = model_.contacts();
     // The direction of a foot that slides changes within |V|/L.
@@ -572,7 +581,8 @@ class CartSystem {
       last = work_.problem.acceleration();
       if (whole) y = place(weights, last);
       lag = whole ? lag_of(first, rates, last, norm(y), h) : 0;
-      bool turned = lag > 1e-3 || (whole && !(norm(last) > 0)) || work_.modes != work_.problem.slides();
+      bool turned =
+          lag > 1e-3 || (whole && !(norm(last) > 0.2 * norm(rates[0]))) || work_.modes != work_.problem.slides();
       for (std::size_t l = 0; l < model_.lines.size(); ++l)
         turned = turned || (!asks(l) && state_.lines[l] * speed_of(stage, y, l) < -model_.slow);
       if (!turned || tries > 12) break;
@@ -611,7 +621,9 @@ class CartSystem {
     std::fill(work_.fresh.begin(), work_.fresh.end(), std::uint8_t{0});
     settle_speeds();
     // As long as the acceleration is small beside friction, a series would take steps of |y|/L.
-    if (!whole || at_rest() || !(lag < 1e-4) || !(norm(last) < 0.05 * least_level())) return;
+    if (!whole || at_rest() || !(lag < 1e-4) || !(norm(last) < 0.05 * least_level()) ||
+        !(norm(last) > 0.5 * norm(rates[0])))
+      return;
     slaved_ = lag < 1e-5 ? 2 * h : h;
     slaving_ = true;
     work_.slaving = !(left() > 0);
