@@ -274,7 +274,8 @@ class Events:
         assert not cart.feet, "wheels only"
         self.cart, self.rtol, self.atol, self.longest = cart, rtol, atol, longest
         self.z, self.signs, self.basis, self.resting = cart.initial(), None, (), False
-        self.rests = self.count = 0
+        self.rests = self.count = self.crowds = 0
+        self.now, self.flight = 0.0, False  # the time of the interval; whether the loads are gone
         self.gap, self.peak = math.inf, np.zeros(3)
         self.work_of = np.array([cart.work == kind for kind in range(3)])
 
@@ -308,13 +309,13 @@ class Events:
         signs = np.sign(sigma)
         signs[among] = 0.0
         free = q - (levels * signs) @ rows
-        best = (-math.inf, None, None)
+        best = (-math.inf, None)
         for size in range(3):
             for basis in itertools.combinations(among, size):
                 candidate = self.best_signs(rows, beta, levels, free, among, basis)
                 if candidate and candidate[0] > best[0]:
-                    best = (*candidate, basis)
-        slack, chosen, basis = best
+                    best = candidate
+        slack, chosen = best
         if slack < -1e-9:
             print(f"  warning: the best mode fails by {slack:.1e} at {self.now + tau}")
         signs[among] = chosen
@@ -562,8 +563,6 @@ class Events:
         sigma = self.cart.lines(self.z)[1]
         self.decide(tau + 1e-9, self.z, np.flatnonzero(abs(sigma) < 1e-9))
         self.crowds += 1
-
-    now, flight, crowds = 0.0, False, 0
 
 
 def events(cart, a, dt, settle=False, **accuracy):
