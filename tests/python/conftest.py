@@ -2,13 +2,17 @@
 
 import importlib.util
 import os
+import re
+import shutil
 import signal
+import subprocess
+import sys
 from decimal import Decimal, localcontext
 from pathlib import Path
 
 import numpy as np
 import pytest
-from pages import write_records
+from pages import ROOT, write_records
 
 if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
     # So has a shell that runs the tests in the background set it, also for the programs that they
@@ -78,3 +82,40 @@ def agency_files():
     if not folder or not Path(folder).is_dir():
         pytest.skip("no agency files: set STICKSLIP_RECORDS to a folder of them")
     return Path(folder)
+
+
+@pytest.fixture(scope="session")
+def beside_source(tmp_path_factory):
+    """A folder with the source of stickslip in it, and the interface in C compiled.
+
+    That is where the commands of docs/guides/other_tools.md run.
+    """
+    compiler = os.environ.get("CXX", "c++")
+    if shutil.which(compiler) is None:
+        pytest.skip("no C++ compiler here")
+    folder = tmp_path_factory.mktemp("beside")
+    (folder / "stickslip").symlink_to(ROOT)
+    cache = [path] if (path := shutil.which("ccache")) else []
+    flags = ["-std=c++20", "-O0", "-fPIC", f"-I{ROOT / 'include'}"]
+    source = ROOT / "src" / "stickslip.cpp"
+    subprocess.run(
+        [*cache, compiler, *flags, "-c", source, "-o", folder / "stickslip.o"], check=True
+    )
+    return folder
+
+
+@pytest.fixture(scope="session")
+def run_page(beside_source):
+    """Runs the commands of docs/guides/other_tools.md that have these words; returns the folder."""
+    page = (ROOT / "docs" / "guides" / "other_tools.md").read_text(encoding="utf-8")
+
+    def run_page(words):
+        blocks = re.findall(r"^```text\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
+        lines = [line for block in blocks for line in block.splitlines() if words in line]
+        assert lines, words
+        for line in lines:
+            line = re.sub("^python ", f"{sys.executable} ", line)
+            subprocess.run(line, shell=True, cwd=beside_source, check=True)
+        return beside_source
+
+    return run_page

@@ -62,7 +62,7 @@ def empty(tmp_path, monkeypatch, pyslammer_files, request):
 
 
 def test_every_guide_has_code():
-    assert len(PAGES) == 14
+    assert len(PAGES) == 15
     kinds = ("python", "cpp", "sh")
     pages = {param.id.rsplit("-", 1)[0] for kind in kinds for param in blocks(kind)}
     assert pages == {page.stem for page in PAGES}

@@ -1,0 +1,174 @@
+"""The FMUs of examples/fmu, run by FMPy, against integrate."""
+
+import numpy as np
+import pytest
+import stickslip as ss
+
+pytestmark = pytest.mark.slow
+fmpy = pytest.importorskip("fmpy")
+fmi2 = pytest.importorskip("fmpy.fmi2")
+
+G = ss.STANDARD_GRAVITY
+DT = 0.1
+
+# Parameters of an FMU, and the slider that it is.
+SLIDERS = {
+    "sliding": ("slider", {"mu": 0.1}, ss.Slider(ss.Coulomb(mu=0.1))),
+    "spring": (
+        "slider",
+        {
+            "mu": 0.05,
+            "mu_static": 0.07,
+            "natural_frequency": 3.0,
+            "damping_ratio": 0.04,
+            "mass": 5.0,
+        }
+        | {"gap": 0.06, "restitution": 0.6},
+        ss.Slider(
+            ss.StaticKinetic(mu_static=0.07, mu_kinetic=0.05),
+            natural_frequency=3.0,
+            damping_ratio=0.04,
+            stops=ss.Stops(gap=0.06, restitution=0.6),
+        ),
+    ),
+    "bearing": (
+        "bearing",
+        {"mu": 0.04, "radius": 1.5, "damping_ratio": 0.03, "mass": 2000.0, "capacity": 0.09},
+        ss.FrictionPendulum(
+            mu=0.04,
+            radius=1.5,
+            damping=2 * 0.03 * np.sqrt(G / 1.5),
+            stops=ss.Stops(gap=0.09, restitution=0),
+        ),
+    ),
+}
+
+
+@pytest.fixture(scope="module")
+def files(run_page):
+    folder = run_page("examples/fmu/build.py")
+    return {model: folder / f"{model}.fmu" for model in ("slider", "bearing")}
+
+
+@pytest.fixture
+def slave(files, tmp_path):
+    """Starts an FMU; returns it, and the value references of its variables."""
+    started = []
+
+    def start(model, parameters):
+        description = fmpy.read_model_description(files[model])
+        of = {v.name: v.valueReference for v in description.modelVariables}
+        fmu = fmi2.FMU2Slave(
+            guid=description.guid,
+            unzipDirectory=fmpy.extract(files[model], tmp_path / f"{model}{len(started)}"),
+            modelIdentifier=description.coSimulation.modelIdentifier,
+            instanceName="tested",
+        )
+        fmu.instantiate()
+        started.append(fmu)
+        fmu.setupExperiment(startTime=0)
+        fmu.enterInitializationMode()
+        fmu.setReal([of[name] for name in parameters], list(parameters.values()))
+        return fmu, of
+
+    yield start
+    for fmu in started:
+        fmu.freeInstance()
+
+
+def step(fmu, time, start, end, dt=DT):
+    """A step with inputs that are linear in time: their values and derivatives at its start."""
+    fmu.setReal([0, 1], start)
+    slopes = [(b - a) / dt for a, b in zip(start, end)]
+    kinds = fmi2.fmi2ValueReference * 2, fmi2.fmi2Integer * 2, fmi2.fmi2Real * 2
+    references, orders, values = (kind(*x) for kind, x in zip(kinds, ((0, 1), (1, 1), slopes)))
+    fmu.fmi2SetRealInputDerivatives(fmu.component, references, 2, orders, values)
+    fmu.doStep(currentCommunicationPoint=time, communicationStepSize=dt)
+    return fmu.getReal([2, 3, 4])
+
+
+def grounds(record_a):
+    """Horizontal and vertical acceleration; the latter lifts the slider off the ground at times."""
+    return record_a, 3.2 * np.roll(record_a, 40)
+
+
+@pytest.mark.parametrize("name", SLIDERS)
+def test_linear_inputs_give_what_integrate_gives(slave, record_a, name):
+    model, parameters, slider = SLIDERS[name]
+    n, vertical = grounds(record_a)
+    r = ss.integrate(slider, ss.GroundMotion(n, dt=DT, vertical=vertical))
+    assert vertical.min() < -G and r.slips > 10
+    assert name == "sliding" or len(r.impacts) > 0
+    fmu, _ = slave(model, parameters)
+    fmu.exitInitializationMode()
+    inputs = list(zip(n, vertical))
+    rows = [step(fmu, k * DT, inputs[k], inputs[k + 1]) for k in range(len(n) - 1)]
+    x, v, force = np.transpose(rows)
+    # Round-off alone, and with a damper the 1e-12 that the interface in C promises.
+    assert x == pytest.approx(r.displacement[1:], abs=1e-12 * r.peak)
+    assert v == pytest.approx(r.velocity[1:], abs=1e-11 * abs(r.velocity).max())
+    mass = parameters.get("mass", 1.0)
+    assert force == pytest.approx(mass * r.force[1:], abs=1e-11 * mass * abs(r.force).max())
+
+
+@pytest.mark.parametrize("name", ["sliding", "spring"])
+def test_inputs_without_derivatives_are_constant_within_a_step(files, record_a, name):
+    model, parameters, slider = SLIDERS[name]
+    n, vertical = grounds(record_a)
+    time = DT * np.arange(len(n))
+    kinds = [(x, float) for x in ("time", "ground_acceleration", "vertical_acceleration")]
+    result = fmpy.simulate_fmu(
+        files[model],
+        stop_time=time[-1],
+        output_interval=DT,
+        start_values=parameters,
+        input=np.array(list(zip(time, n, vertical)), dtype=kinds),
+        output=["displacement", "velocity"],
+    )
+    ground = ss.GroundMotion(n, dt=DT, vertical=vertical, interpolation="constant")
+    r = ss.integrate(slider, ground)
+    # FMPy adds up its times, and interpolates the inputs at them: some 1e-14 of the time.
+    assert result["displacement"] == pytest.approx(r.displacement, abs=1e-12 * r.peak)
+    assert result["velocity"] == pytest.approx(r.velocity, abs=1e-11 * abs(r.velocity).max())
+
+
+def test_a_step_can_be_repeated(slave, record_a):
+    fmu, _ = slave("slider", SLIDERS["spring"][1])
+    fmu.exitInitializationMode()
+    for k in range(20):
+        saved = fmu.getFMUState()
+        first = step(fmu, k * DT, (record_a[k], 0), (record_a[k + 1], 0))
+        step(fmu, (k + 1) * DT, (5, 0), (-5, 0))
+        fmu.setFMUState(saved)
+        fmu.freeFMUState(saved)
+        assert step(fmu, k * DT, (record_a[k], 0), (record_a[k + 1], 0)) == first
+
+
+@pytest.mark.parametrize("model", ["slider", "bearing"])
+def test_the_description_is_valid_and_has_the_start_values_of_the_binary(files, slave, model):
+    assert fmpy.validation.validate_fmu(str(files[model])) == []
+    fmu, of = slave(model, {})
+    for variable in fmpy.read_model_description(files[model]).modelVariables:
+        if variable.start is not None:
+            assert fmu.getReal([of[variable.name]]) == [float(variable.start)]
+
+
+def test_errors_say_what_is_wrong(slave, capfd):
+    fmu, _ = slave("slider", {"mu": -0.1})
+    with pytest.raises(fmi2.FMICallException):
+        fmu.exitInitializationMode()
+    fmu, _ = slave("bearing", {"radius": 0.0})
+    with pytest.raises(fmi2.FMICallException):
+        fmu.exitInitializationMode()
+    fmu, of = slave("slider", {})
+    fmu.exitInitializationMode()
+    for name in "mu", "displacement":
+        with pytest.raises(fmi2.FMICallException):
+            fmu.setReal([of[name]], [0.1])
+    fmu.setReal([0], [float("nan")])
+    with pytest.raises(fmi2.FMICallException):
+        fmu.doStep(currentCommunicationPoint=0, communicationStepSize=DT)
+    said = "".join(capfd.readouterr())
+    assert "slip_level" in said
+    assert "radii" in said
+    assert "parameters are fixed" in said
