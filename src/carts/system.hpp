@@ -69,6 +69,7 @@ struct CartDeparture {
   bool beyond = false;            // the load lies beyond what holds already
   bool tied = false;              // several faces meet
   const Vector3* face = nullptr;  // through which it leaves; null: in a direction without friction
+  double excess = 0;              // of the load over that face, then [m/s^2]
   bool departs() const noexcept { return leaves; }
 };
 
@@ -125,7 +126,6 @@ class CartSystem {
     const double turn = ground_.weightless();
     CartDeparture first;
     double soonest = never;
-    bool beyond = false;
     const auto piece = [&](double begin, double end) {
       const Vector3 from = load_at(state_, begin), to = load_at(state_, end);
       const double heavy_from = weight_at(begin), heavy_to = weight_at(end);
@@ -133,16 +133,15 @@ class CartSystem {
         if (!(std::max(f0, f1) > 0)) return;
         const double delay = begin - now_ + (f0 >= 0 ? 0 : (end - begin) * (f0 / (f0 - f1)));
         const bool meets = std::abs(delay - soonest) <= 1e-9 * left();
-        if (delay < soonest) soonest = delay, first = {true, delay, false, meets, face};
-        first.tied = first.tied || meets;
-        beyond = beyond || (f0 > 0 && !(begin > now_));
+        if (delay < soonest || (meets && f0 > first.excess)) first = {true, delay, false, first.tied, face, f0};
+        first.tied = meets || (first.tied && !(delay < soonest));
+        soonest = std::min(soonest, delay);
       };
       if (work_.hold.has_feet()) {
         // Loads are carried in an interval of time: from outside each plane cuts nearer.
         Vector3 normal{};
         if (work_.hold.leaves(from, heavy_from, normal)) {
           first = {true, begin - now_, !(begin > now_), false, nullptr};
-          beyond = first.beyond;
           return;
         }
         double part = 1;
@@ -175,7 +174,8 @@ class CartSystem {
     } else {
       piece(now_, ground_.duration);
     }
-    first.beyond = beyond;
+    // A load barely beyond leaves through its face; what it moves is not known better from the problem.
+    if (first.face != nullptr && first.excess > 1e-6 * norm(load_at(state_, now_))) first.beyond = true;
     return first;
   }
 
@@ -205,7 +205,7 @@ class CartSystem {
       const Vector3 normal = *departure.face;
       for (std::size_t l = 0; l < model_.lines.size(); ++l) {
         state_.lines[l] = static_cast<std::int8_t>(work_.hold.lines().leaves(normal, l));
-        work_.fresh[l] = state_.lines[l] != 0 ? 2 : 0;
+        work_.fresh[l] = state_.lines[l] == 0 ? 0 : departure.excess > 0 ? 1 : 2;
       }
     }
     return std::exchange(stopped_, false) && !(departure.delay > 0) ? Resumption::reversed : Resumption::from_rest;
@@ -491,7 +491,7 @@ class CartSystem {
       // Forces can jump where a segment begins, or fall back to what holds.
       solve(state_, now_);
       const Vector3 rate = work_.problem.acceleration(), y = model_.velocities(state_);
-      if (!(dot(rate, y) > (1 - 1e-4) * norm(rate) * norm(y)) || !(norm(rate) > 1e-5 * least_level())) {
+      if (!(dot(rate, y) > (1 - 1e-4) * norm(rate) * norm(y)) || !(norm(rate) > 1e-9 * least_level())) {
         slaved_ = 0;
         slaving_ = false;
         return;
@@ -509,6 +509,7 @@ class CartSystem {
       if (!asks(l) && level > 0)
         h = std::min(h, 0.05 * speed_of(state_, model_.velocities(state_), l) / (level * (1 + lever * lever)));
     }
+    const double asked = h;
     static const double root = std::sqrt(15.0);
     const double nodes[3] = {0.5 - root / 10, 0.5, 0.5 + root / 10}, weights[3] = {5.0 / 18, 4.0 / 9, 5.0 / 18};
     const double a[3][3] = {{5.0 / 36, 2.0 / 9 - root / 15, 5.0 / 36 - root / 30},
@@ -628,7 +629,7 @@ class CartSystem {
     settle_speeds();
     // As long as the acceleration is small beside friction, a series would take steps of |y|/L.
     if (!whole || at_rest() || !(lag < 1e-4) || !(norm(last) < 0.05 * least_level()) ||
-        !(norm(last) > 0.5 * norm(rates[0])) || (h < from_rest / 16 && left() > 0))
+        !(norm(last) > 0.5 * norm(rates[0])) || (h < asked / 16 && left() > 0))
       return;  // where a line turns a series goes on
     slaved_ = lag < 1e-5 ? 2 * h : h;
     slaving_ = true;

@@ -611,7 +611,7 @@ def differences(states, entry):
 def main():
     path, *wanted = sys.argv[1:]
     with open(path, encoding="utf-8") as file:
-        entries = json.load(file)["entries"]
+        entries = json.load(file)["carts"]["rows"]
     for entry in entries:
         if wanted and entry["id"] not in wanted:
             continue
