@@ -2,6 +2,12 @@
 #pragma once
 
 #include "stickslip/build_info.hpp"
+#include "stickslip/carts/cart.hpp"
+#include "stickslip/carts/integrate.hpp"
+#include "stickslip/carts/outcomes.hpp"
+#include "stickslip/carts/response.hpp"
+#include "stickslip/carts/state.hpp"
+#include "stickslip/carts/support.hpp"
 #include "stickslip/core.hpp"
 #include "stickslip/ensemble/run.hpp"
 #include "stickslip/ensemble/sensitivity.hpp"

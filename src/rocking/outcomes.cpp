@@ -1,17 +1,14 @@
 #include "stickslip/rocking/outcomes.hpp"
 
-#include <atomic>
 #include <cmath>
 
 #include "base/attempt.hpp"
-#include "base/threads.hpp"
+#include "base/outcomes.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/rocking/integrate.hpp"
 
 namespace stickslip {
 namespace {
-
-struct Stopped {};
 
 template <class Block>
 RockingOutcome outcome(const Block& block, const GroundMotion& motion, const RockingOptions& options) {
@@ -32,24 +29,14 @@ using MotionOf = std::function<void(std::size_t, const std::function<void(const 
 template <class Block>
 std::vector<RockingOutcome> outcomes_of(std::size_t runs, const std::function<const Block&(std::size_t)>& block_of,
                                         const MotionOf& motion_of, const RockingRunOptions& options) {
-  std::vector<RockingOutcome> outcomes(runs);
-  std::atomic<bool> stopped = false;
-  std::atomic<std::size_t> given = 0, done = 0;
-  RockingOptions how;
-  how.settle = options.settle;
-  how.progress = [&] {
-    if (stopped) throw Stopped{};
-  };
-  detail::run_on_threads(
-      options.threads, runs, stopped,
-      [&] {
-        for (std::size_t i; !stopped && (i = given++) < runs; ++done)
-          motion_of(i, [&](const GroundMotion& motion) { outcomes[i] = outcome(block_of(i), motion, how); });
-      },
-      [&] {
-        if (options.progress) options.progress(done, runs);
-      });
-  return outcomes;
+  return detail::outcomes_of<RockingOutcome>(runs, options, [&](std::size_t i, const std::function<void()>& progress) {
+    RockingOptions how;
+    how.settle = options.settle;
+    how.progress = progress;
+    RockingOutcome found;
+    motion_of(i, [&](const GroundMotion& motion) { found = outcome(block_of(i), motion, how); });
+    return found;
+  });
 }
 
 template <class Block>
