@@ -69,6 +69,9 @@ inline constexpr std::array ranges{
     // A pendulum of 20 m has a period of 9 s.
     PlausibleRange{"radius", "m", 0, 20, 0.2, 8, "dishes", {in_mm, in_cm, in_inches}},
     PlausibleRange{"length", "m", 0, 3, 0.02, 1, "casters, bearings and their stops", {in_mm, in_cm, in_inches}},
+    PlausibleRange{"length of a cart", "m", 0, 20, 0.05, 5, "carts", {in_mm, in_cm, in_inches}},
+    PlausibleRange{"heading", "rad", 0, 2 * std::numbers::pi * (1 + 1e-12), 0, 2 * std::numbers::pi, "casters",
+                   {{{"it is in degrees", std::numbers::pi / 180}}}},
     // A slope of less than one degree changes load and friction by less than 2 % of g.
     PlausibleRange{"slope", "degrees", 1, 90, 1, 60, "slopes", {{{"it is in radians", 180 / std::numbers::pi}}}},
     PlausibleRange{"period", "s", 0, 60, 0.01, 20, "structures and mountings", {in_ms}},

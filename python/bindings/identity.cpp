@@ -1,6 +1,7 @@
 #include "stickslip/identity.hpp"
 
 #include "bindings.hpp"
+#include "carts/carts.hpp"
 #include "stickslip/planar/any_planar_slider.hpp"
 #include "stickslip/planar/identity.hpp"
 #include "stickslip/structure/equipment_on_floor.hpp"
@@ -41,6 +42,9 @@ The name and the parameters of the law, and the mounting. A law from functions i
       py::arg("of"), py::pos_only());
   m.def(
       "identity", [](const FlexibleSlope& one) { return py::repr(py::cast(one)).cast<std::string>(); }, py::arg("of"),
+      py::pos_only());
+  m.def(
+      "identity", [](const CartAsGiven& one) { return py::repr(py::cast(one)).cast<std::string>(); }, py::arg("of"),
       py::pos_only());
   m.def(
       "identity", [](const GroundMotion& motion) { return identity(std::span(&motion, 1)); }, py::arg("of"),

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "bindings.hpp"
+#include "carts/carts.hpp"
 #include "rocking/rocking.hpp"
 #include "structure/structure.hpp"
 
@@ -68,6 +69,10 @@ PYBIND11_MODULE(_core, m) {
   bind_rocking_block(m);
   bind_rocking_advance(m);
   bind_rocking_response(m);
+  bind_supports(m);
+  bind_cart(m);
+  bind_cart_advance(m);
+  bind_cart_response(m);
   bind_histories(m);
   bind_planar_histories(m);
   bind_envelope(m);
@@ -89,6 +94,7 @@ PYBIND11_MODULE(_core, m) {
   bind_ensemble(m);
   bind_ensemble_sensitivity(m);
   bind_rocking_outcomes(m);
+  bind_cart_outcomes(m);
   bind_identity(m);
   bind_sweep(m);
   bind_orientations(m);

@@ -22,7 +22,12 @@ SI units everywhere. Displacement and velocity are relative to the ground; forwa
 from . import harmonic, theory
 from ._core import (
     STANDARD_GRAVITY,
+    Cart,
+    CartEnergy,
+    CartResponse,
+    CartState,
     Caster,
+    Clearance,
     ConvergenceError,
     Coulomb,
     Degrading,
@@ -35,9 +40,11 @@ from ._core import (
     Envelope,
     EquipmentOnFloor,
     Estimate,
+    FixedWheel,
     FlexibleSlope,
     FloorPeaks,
     Floors,
+    Foot,
     FrictionLaw,
     FrictionPendulum,
     GaussianExcitation,
@@ -82,6 +89,7 @@ from ._core import (
     StructureState,
     SurfaceHeat,
     SurfaceMotion,
+    SwivelCaster,
     TriplePendulum,
     Uniform,
     VelocityDependent,
@@ -104,8 +112,10 @@ TYPE_CHECKING = False  # instead of importing `typing`, which takes as long as a
 if TYPE_CHECKING:
     from . import regressions
     from ._interfaces import interfaces
+    from .carts import CartEnsemble, CartTable
     from .comparison import Comparison, compare
     from .ensemble import EnsembleError, Random, ensemble_sensitivity, run_ensemble
+    from .ensemble.random_headings import RandomHeadings
     from .motions.directions import RotD, rotd
     from .motions.intensity import IntensityMeasures, SuiteSpectra
     from .motions.records import read_record, read_station, record_formats
@@ -138,7 +148,14 @@ __all__ = [
     "STANDARD_GRAVITY",
     "ASCE43Estimate",
     "ASCE43RockingEstimate",
+    "Cart",
+    "CartEnergy",
+    "CartEnsemble",
+    "CartResponse",
+    "CartState",
+    "CartTable",
     "Caster",
+    "Clearance",
     "Comparison",
     "ConvergenceError",
     "Coulomb",
@@ -155,9 +172,11 @@ __all__ = [
     "EquipmentOnFloor",
     "Estimate",
     "Exceedances",
+    "FixedWheel",
     "FlexibleSlope",
     "FloorPeaks",
     "Floors",
+    "Foot",
     "Fragility",
     "FrictionLaw",
     "FrictionPendulum",
@@ -187,6 +206,7 @@ __all__ = [
     "PulseFit",
     "QuintuplePendulum",
     "Random",
+    "RandomHeadings",
     "Rayleigh",
     "Response",
     "ResponseSpectrum",
@@ -217,6 +237,7 @@ __all__ = [
     "SurfaceMotion",
     "SweepError",
     "SweepTable",
+    "SwivelCaster",
     "TriplePendulum",
     "Uniform",
     "VelocityDependent",
@@ -295,6 +316,8 @@ if not TYPE_CHECKING:
         "risk.asce43_rocking": ("ASCE43RockingEstimate", "asce43_rocking"),
         "risk.yield_acceleration": ("yield_acceleration",),
         "rocking": ("RockingEnsemble", "RockingTable"),
+        "carts": ("CartEnsemble", "CartTable"),
+        "ensemble.random_headings": ("RandomHeadings",),
     }
 
     def __getattr__(name):

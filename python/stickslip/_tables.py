@@ -102,6 +102,19 @@ def frame_of(columns: Columns, units: Mapping[str, str], who: str, index: str | 
     return frame if index is None else frame.set_index(index)
 
 
+def dataset_of(
+    columns: Columns, units: Mapping[str, str], who: str, attrs: Mapping[str, Any]
+) -> Any:
+    """An xarray Dataset of columns over the first, their units as attributes."""
+    xarray = optional("xarray", "tables", who)
+    (index, at), *others = columns.items()
+    return xarray.Dataset(
+        {name: (index, values, {"units": units[name]}) for name, values in others},
+        coords={index: (index, at, {"units": units[index]})},
+        attrs=attrs,
+    )
+
+
 def write_csv(columns: Columns, units: Mapping[str, str], file: str | os.PathLike[str]) -> Path:
     """Write columns to a CSV file, which replaces another one whole or not at all.
 
@@ -216,7 +229,7 @@ def _columns(
 ) -> tuple[dict[str, NDArray[Any]], dict[str, str]]:
     """The time and the histories of a response, and their units."""
     histories = _histories(response)
-    columns = {name: _history(response, name) for name, _, _ in histories}
+    columns = {name: history(response, name) for name, _, _ in histories}
     return {"time": response.time, **columns}, {"time": "s"} | {n: u for n, u, _ in histories}
 
 
@@ -231,7 +244,7 @@ def to_xarray(response: Response | PlanarResponse) -> Any:
     variables = {
         name: (
             "time",
-            _history(response, name),
+            history(response, name),
             {"long_name": what} | ({"units": unit} if unit else {}),
         )
         for name, unit, what in _histories(response)
@@ -269,7 +282,7 @@ def to_json(response: Response | PlanarResponse) -> str:
         "at_rest": response.at_rest,
         "units": {"time": "s"} | {name: unit for name, unit, _ in histories if unit},
         "time": response.time,
-        **{name: _history(response, name) for name, _, _ in histories},
+        **{name: history(response, name) for name, _, _ in histories},
         "events": [dict(zip(events.dtype.names or (), row)) for row in events.tolist()],
     }
     return json_text(document)
@@ -441,7 +454,7 @@ def html_table(title: str, heading: Sequence[str], rows: Iterable[Sequence[str]]
     return f"<table><caption>{html.escape(title)}</caption>{head}<tbody>{body}</tbody></table>"
 
 
-def _history(response: Response | PlanarResponse, name: str) -> NDArray[Any]:
+def history(response: Any, name: str) -> NDArray[Any]:
     """A writable copy of a history."""
     if "ground_acceleration" in name:
         n = np.zeros(response.time.size)

@@ -287,6 +287,34 @@ class RockingCells(SystemCells):
                 convert()
 
 
+class CartCells(RockingCells):
+    """The same columns of a cart."""
+
+    def integrate(self):
+        r = self.response
+        assert r.time_moving > 0
+        assert abs(r.energy.imbalance) < 1e-12
+
+    def advance(self):
+        state, n = ss.CartState(), np.column_stack([AXIS, AXIS[::-1]])
+        for begin, end in itertools.pairwise(n):
+            state = ss.advance(self.slider, state, self.motion.dt, begin, end)
+        assert np.allclose(state.displacement, self.response.displacement[-1], atol=1e-9)
+
+    def sweep(self):
+        table = ss.sweep(self.slider, [self.motion], polarity="recorded")
+        assert table.peak_outline.item() == self.response.peak_outline
+
+    def run_ensemble(self):
+        e = ss.run_ensemble(self.slider, [self.motion], members=2, seed=1)
+        assert (e.peak_outline == self.response.peak_outline).all()
+
+    def tables(self):
+        r = self.response
+        assert json.loads(r.to_json())["peak_outline"] == r.peak_outline
+        assert r.to_csv(self.folder / "r.csv").stat().st_size > 1000
+
+
 FLOORS = ss.Structure.shear_building(masses=[2e5] * 3, stiffnesses=[2.4e8] * 3, damping_ratio=0.03)
 ISOLATOR = ss.Slider(BLOCK, **SPRING)
 PAIR = ss.GroundMotion(AXIS, dt=0.05, transverse=AXIS[::-1])
@@ -300,10 +328,22 @@ SYSTEMS = {
     ),
     "`SlenderBlock`": (ss.SlenderBlock(p=3, alpha=0.1, restitution=0.9), QUAKE),
     "`RockingBlock`": (ss.RockingBlock(width=0.2, height=2, mu=0.3), QUAKE),
+    "`Cart`": (
+        ss.Cart(
+            [
+                ss.SwivelCaster(at=(x, y), heading=x + y, slip_level=0.5, reach=0.04)
+                for x in (-0.3, 0.3)
+                for y in (-0.2, 0.2)
+            ]
+            + [ss.FixedWheel(at=(0, 0), mu=0.1, rolling_mu=0.05)],
+            radius_of_gyration=0.25,
+        ),
+        PAIR,
+    ),
 }
 NOT_OF_SYSTEMS = {
     "no": r"on one axis, got a PlanarSlider|sliders must be a Slider, a friction law|no attribute"
-    r"|sensitivities of structures are not|a Suite, got <RockingResponse"
+    r"|sensitivities of structures are not|a Suite, got <(Rocking|Cart)Response"
 }
 
 SHAKING = ss.GaussianExcitation(ss.Spectrum.band_pass(s0=0.3, low=2, high=30), dt=0.05, samples=201)
@@ -447,7 +487,8 @@ def test_every_theory_of_a_row_is_as_the_table_says(name):
 
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_every_analysis_of_a_system_is_as_the_table_says(name, tmp_path):
-    kind = RockingCells if name in ("`SlenderBlock`", "`RockingBlock`") else SystemCells
+    rocks = dict.fromkeys(("`SlenderBlock`", "`RockingBlock`"), RockingCells)
+    kind = (rocks | {"`Cart`": CartCells}).get(name, SystemCells)
     cells = kind(*SYSTEMS[name], tmp_path)
     found = {column: cell(getattr(cells, column), NOT_OF_SYSTEMS) for column in COLUMNS}
     assert found == table("Systems")[name]

@@ -330,7 +330,7 @@ def test_what_cannot_slide_in_the_plane_is_refused():
     with pytest.raises(TypeError, match="law must be a friction law"):
         ss.PlanarSlider(3)
     others = (
-        "an IsolatedStructure, an EquipmentOnFloor, a FlexibleSlope, a SlenderBlock"
+        "an IsolatedStructure, an EquipmentOnFloor, a FlexibleSlope, a Cart, a SlenderBlock"
         " or a RockingBlock"
     )
     with pytest.raises(

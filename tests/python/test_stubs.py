@@ -110,6 +110,16 @@ walked: NDArray[np.float64] = ss.integrate(rigid, quake, settle=True).displaceme
 slid: NDArray[np.float64] = ss.sweep([rigid], quake, scale=[1, 2]).residual
 rough: float | None = rigid.mu
 ss.advance(rigid, ss.RockingState(0.1), 0.01, 1).slips
+wheel_of_cart = ss.SwivelCaster(at=(0.3, 0.2), heading=1, mu=0.5, trail=0.04, wheel_width=0.03)
+locked = ss.SwivelCaster(at=(-0.3, 0), heading=1, mu=0.5, trail=0.04, lock="both")
+trolley = ss.Cart([wheel_of_cart, ss.Foot(at=(0, 0), mu=0.3), locked], radius_of_gyration=0.3)
+rolled = ss.integrate(trolley, quake, walls=[((1.5, 0), (0, 1))])
+corner: float = rolled.peak_outline + rolled.clearance(((2, 0), (0, 1))).least
+turned: NDArray[np.float64] = rolled.heading
+drawn = trolley.with_random_headings()
+reached: ss.Interval = ss.run_ensemble(drawn, quake, members=2, seed=1).exceedance(0.1)
+corners: NDArray[np.float64] = ss.sweep(drawn, quake, members=2, seed=1).peak_outline
+ss.advance(trolley, ss.CartState(yaw=1), 0.01, (0, 1)).headings.tolist()
 far = max(r.peak, r.residual, r.sliding_distance, r.time_sliding)
 same: bool = block == wheel or hash(block) == hash(cart)
 words: dict[str, str] = ss.build_info()

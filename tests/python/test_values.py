@@ -83,6 +83,17 @@ RIGID = [
 ]
 ROCKED = [ss.integrate(block, EVEN) for block in (*ROCKS, *RIGID)]
 
+CASTERS = [
+    ss.SwivelCaster(at=(0, y), heading=h, slip_level=1, reach=0.1) for y, h in ((0, 1), (1, 2))
+]
+WHEELS = [ss.FixedWheel(at=(0, y), mu=0.3) for y in (-1, 1)]
+FEET = [ss.Foot(at=(0, y), mu=0.3) for y in (-1, 1)]
+CARTS = [
+    ss.Cart(some, radius_of_gyration=1) for some in (CASTERS[:1], WHEELS, [*WHEELS, *CASTERS[:1]])
+]
+STRONG = 3 * PAIR
+ROLLED = [ss.integrate(cart, STRONG, walls=[((9, 0), (0, 1))]) for cart in CARTS]
+
 # Of each class, objects that differ.
 EXAMPLES = {
     ss.Coulomb: [BLOCK, ss.Coulomb(mu=0.2), ss.Coulomb(slip_level=1, backward=float("inf"))],
@@ -335,6 +346,17 @@ EXAMPLES = {
     ss.RockingTable: [ss.sweep(block, EVEN) for block in (*ROCKS, *RIGID)],
     ss.RockingEnsemble: [ss.run_ensemble(ROCKS[0], EVEN, members=n, seed=1) for n in (1, 2)],
     ss.RockingSpectrum: [ss.rocking_spectrum(EVEN, alpha=a, periods=[2]) for a in (0.01, 0.02)],
+    ss.SwivelCaster: CASTERS,
+    ss.FixedWheel: WHEELS,
+    ss.Foot: FEET,
+    ss.Cart: CARTS,
+    ss.CartState: [ss.CartState(), ss.CartState((0, 1)), ss.CartState(yaw_rate=1)],
+    ss.CartResponse: ROLLED,
+    ss.CartEnergy: [r.energy for r in ROLLED],
+    ss.Clearance: [ROLLED[0].clearance(((x, 0), (0, 1))) for x in (8, 9)],
+    ss.CartTable: [ss.sweep(cart, PAIR) for cart in CARTS],
+    ss.CartEnsemble: [ss.run_ensemble(CARTS[0], PAIR, members=n, seed=1) for n in (1, 2)],
+    ss.RandomHeadings: [CARTS[i].with_random_headings() for i in (0, 2)],
     ss.ResponseSpectrum: [
         ss.response_spectrum(EVEN, [0, 0.5]),
         ss.response_spectrum(EVEN, [0, 0.5], 0.02),
@@ -531,6 +553,7 @@ def test_what_can_change_has_no_hash_and_all_else_has_one():
     unhashable = {kind for kind in EXAMPLES if kind.__hash__ is None}
     tables = {ss.SweepTable, ss.IntensityMeasures, ss.SuiteSpectra, ss.RotD, ss.Orientations}
     tables |= {ss.RockingTable, ss.RockingEnsemble, ss.RockingSpectrum}
+    tables |= {ss.CartTable, ss.CartEnsemble}
     tables |= {ss.Fragility, ss.Hazard, ss.Exceedances, ss.DesignChart, ss.IntensityEfficiency}
     assert unhashable == {ss.Ensemble, ss.Comparison, ss.Grid} | tables
     for kind in EXAMPLES.keys() - unhashable:

@@ -36,7 +36,7 @@ struct CartRunOptions {
 /// The outcomes of runs, each from rest.
 /// @param cart_of    the cart of run i
 /// @param motion_of  `motion_of(i, use)` calls `use(motion)` with the motion of run i; several threads call it
-/// A run that fails (a cart that may roll for ever with `settle`) is entered with the reason.
+/// A run that fails (`settle` without rolling resistance) is entered with the reason.
 std::vector<CartOutcome> cart_outcomes(
     std::size_t runs, const std::function<const Cart&(std::size_t)>& cart_of,
     const std::function<void(std::size_t, const std::function<void(const GroundMotion&)>&)>& motion_of,

@@ -22,17 +22,21 @@ struct PlanarResponseWithInputs {
 };
 
 /// The ground motion, which needs both horizontal components.
-/// @param function  that asks, for messages
-inline const GroundMotion& both_components(const py::object& motion, const char* function) {
-  if (!py::isinstance<GroundMotion>(motion))
-    throw py::type_error(std::string(function) + ": the motion of a PlanarSlider must be a GroundMotion, got " +
-                         py::type::of(motion).attr("__name__").cast<std::string>());
-  const auto& ground = motion.cast<const GroundMotion&>();
-  if (!ground.has_transverse())
+/// @param where  the function that asks, for messages, and `what` moves
+inline const GroundMotion& both_components(const GroundMotion& motion, const std::string& where,
+                                           const std::string& what) {
+  if (!motion.has_transverse())
     throw std::invalid_argument(
-        std::string(function) + ": a PlanarSlider needs both horizontal components; '" + ground.name() +
+        where + ": a " + what + " needs both horizontal components; '" + motion.name() +
         "' has no transverse component: give GroundMotion(..., transverse=...), or read both with read_station(file)");
-  return ground;
+  return motion;
+}
+inline const GroundMotion& both_components(const py::object& motion, const std::string& where,
+                                           const std::string& what = "PlanarSlider") {
+  if (!py::isinstance<GroundMotion>(motion))
+    throw py::type_error(where + ": the motion of a " + what + " must be a GroundMotion, got " +
+                         py::type::of(motion).attr("__name__").cast<std::string>());
+  return both_components(motion.cast<const GroundMotion&>(), where, what);
 }
 
 }  // namespace stickslip::python

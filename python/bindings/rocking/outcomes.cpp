@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "ensemble/outcomes.hpp"
 #include "ensemble/sources.hpp"
 #include "rocking/rocking.hpp"
 #include "stickslip/statistics/binomial.hpp"
@@ -14,13 +15,8 @@ namespace stickslip::python {
 namespace {
 
 // Arrays by name, of shape (runs,), and the failures: (run, message).
-py::dict columns_of(const std::vector<RockingOutcome>& outcomes, bool rigid) {
-  const auto column = [&](auto member) {
-    std::vector<std::remove_cvref_t<decltype(std::declval<RockingOutcome>().*member)>> values;
-    values.reserve(outcomes.size());
-    for (const RockingOutcome& one : outcomes) values.push_back(one.*member);
-    return values;
-  };
+py::dict columns_of(const std::vector<RockingOutcome>& outcomes) {
+  const auto column = [&](auto member) { return column_of(outcomes, member); };
   py::dict result;
   result["peak_rotation"] = array_of(column(&RockingOutcome::peak));
   result["peak_rotation_ratio"] = array_of(column(&RockingOutcome::peak_ratio));
@@ -29,37 +25,17 @@ py::dict columns_of(const std::vector<RockingOutcome>& outcomes, bool rigid) {
   result["impacts"] = array_of(column(&RockingOutcome::impacts)).attr("astype")("int64");
   result["margin"] = array_of(column(&RockingOutcome::margin));
   result["condition"] = array_of(column(&RockingOutcome::condition));
-  if (rigid) {
-    result["residual"] = array_of(column(&RockingOutcome::residual));
-    result["sliding_distance"] = array_of(column(&RockingOutcome::sliding_distance));
-  }
-  py::list failures;
-  for (std::size_t i = 0; i < outcomes.size(); ++i)
-    if (!outcomes[i].failure.empty()) failures.append(py::make_tuple(i, outcomes[i].failure));
-  result["failures"] = failures;
+  result["residual"] = array_of(column(&RockingOutcome::residual));
+  result["sliding_distance"] = array_of(column(&RockingOutcome::sliding_distance));
+  result["failures"] = failures_of(outcomes);
   return result;
-}
-
-RockingRunOptions options_of(bool settle, unsigned threads, const py::object& progress, std::atomic<bool>& ended) {
-  RockingRunOptions options{settle, threads};
-  options.progress = [&](std::size_t done, std::size_t all) {
-    const py::gil_scoped_acquire held;
-    try {
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      if (!progress.is_none()) progress(done, all);
-    } catch (const py::error_already_set&) {
-      ended = true;
-      throw;
-    }
-  };
-  return options;
 }
 
 template <class Block>
 py::dict sweep_blocks(const std::vector<Block>& blocks, const std::vector<const GroundMotion*>& motions,
                       const std::vector<double>& scales, bool settle, unsigned threads, const py::object& progress) {
   std::atomic<bool> ended = false;
-  const RockingRunOptions options = options_of(settle, threads, progress, ended);
+  const RockingRunOptions options{settle, threads, reporting(progress, ended)};
   const std::size_t records = motions.size(), factors = scales.size();
   const auto outcomes = [&] {
     const py::gil_scoped_release released;
@@ -69,7 +45,7 @@ py::dict sweep_blocks(const std::vector<Block>& blocks, const std::vector<const 
         [&](std::size_t i, const auto& use) { use(motions[i / factors % records]->scaled(scales[i % factors])); },
         options);
   }();
-  return columns_of(outcomes, std::same_as<Block, RockingBlock>);
+  return columns_of(outcomes);
 }
 
 template <class Block>
@@ -77,7 +53,7 @@ py::dict run_blocks(const std::vector<Block>& blocks, const py::object& motions,
                     std::uint64_t first_member, std::uint64_t seed, bool settle, unsigned threads,
                     const py::object& progress) {
   std::atomic<bool> ended = false;
-  const RockingRunOptions options = options_of(settle, threads, progress, ended);
+  const RockingRunOptions options{settle, threads, reporting(progress, ended)};
   const Motions source(motions, ended);
   const auto base = source.time_base();
   const auto outcomes = [&] {
@@ -91,7 +67,7 @@ py::dict run_blocks(const std::vector<Block>& blocks, const py::object& motions,
         },
         options);
   }();
-  py::dict result = columns_of(outcomes, std::same_as<Block, RockingBlock>);
+  py::dict result = columns_of(outcomes);
   result["configuration"] = source.configuration();
   result["duration"] = base ? py::object(py::float_(base->duration)) : py::object(py::none());
   return result;
@@ -166,6 +142,13 @@ ConvergenceError
       },
       py::arg("count"), py::arg("trials"), py::arg("confidence"),
       "A fraction of trials with the bounds of Clopper and Pearson (1934).");
+  m.def(
+      "_quantile",
+      [](const py::object& values, double probability, double confidence) {
+        return FloorPeaks{to_vector(values, "_quantile: values"), 1}.quantile(probability, confidence).front();
+      },
+      py::arg("values"), py::arg("probability"), py::arg("confidence"),
+      "A quantile of the values of members, with bounds as of `Ensemble.quantile`.");
 }
 
 }  // namespace stickslip::python

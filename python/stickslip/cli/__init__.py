@@ -6,7 +6,8 @@ spectrum`` their response spectra. ``stickslip orientations`` slides along all d
 station, ``stickslip sweep`` prints statistics over records, and ``stickslip fragility`` fits the
 probability of sliding further than thresholds. ``stickslip ensemble --event "great very near field"
 --mu 0.2 --members 100000`` prints statistics for random earthquakes, and ``stickslip thesis``
-redraws the figures of the thesis. ``stickslip rock`` prints whether blocks overturn, and
+redraws the figures of the thesis. ``stickslip rock`` prints whether blocks overturn, ``stickslip
+cart`` how far carts roll, and
 ``stickslip completion bash`` a script that completes all this in a shell. Each subcommand is one
 file here, with a function that adds its arguments and one that runs it.
 
@@ -27,6 +28,7 @@ import argparse
 import sys
 import warnings
 
+from .cart import add_cart
 from .completion import add_completion, complete
 from .ensemble import add_ensemble
 from .fragility import add_fragility
@@ -82,6 +84,7 @@ exit codes:
         add_sweep,
         add_newmark,
         add_rock,
+        add_cart,
         add_orientations,
         add_fragility,
         add_records,

@@ -13,11 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core
-from .._core import Lognormal, Normal, RockingBlock, SlenderBlock, Uniform
+from .._core import Cart, Lognormal, Normal, RockingBlock, SlenderBlock, Uniform
 from .._optional import optional
 from .sources import AnyMember
 
 Distribution: TypeAlias = Lognormal | Normal | Uniform | float
+AnyMade: TypeAlias = "AnyMember | SlenderBlock | RockingBlock | Cart"
 _Path: TypeAlias = tuple[str, ...]  # the names of the arguments that lead to a parameter
 
 
@@ -63,9 +64,7 @@ class Random:
     and the value: give a `Normal` bounds. A member costs some 20 us, one thread at a time.
     """
 
-    def __init__(
-        self, kind: Callable[..., AnyMember | SlenderBlock | RockingBlock], /, **parameters: Any
-    ) -> None:
+    def __init__(self, kind: Callable[..., AnyMade], /, **parameters: Any) -> None:
         if not callable(kind):
             raise TypeError(f"Random: kind must be callable, such as Coulomb, got {kind!r}")
         self._kind = kind
@@ -84,7 +83,7 @@ class Random:
         return getattr(self._kind, "__name__", None) or repr(self._kind)
 
     @property
-    def kind(self) -> Callable[..., AnyMember | SlenderBlock | RockingBlock]:
+    def kind(self) -> Callable[..., AnyMade]:
         """The callable that makes the slider or the law."""
         return self._kind
 

@@ -9,7 +9,7 @@ from concurrent.futures import Executor
 from typing import TYPE_CHECKING, Any, SupportsIndex, cast, overload
 
 from .. import _core
-from .._core import Ensemble, GroundMotion
+from .._core import Cart, Ensemble, GroundMotion
 from .._numbers import whole_number
 from .._units import warn_of_units
 from ..runs.parts import check_executor
@@ -19,9 +19,25 @@ from .parts import Parts
 from .sources import AnyMotions, AnySliders, Blocks, check_directions
 
 if TYPE_CHECKING:
+    from ..carts.ensemble import CartEnsemble
+    from ..carts.sweep import Walls
     from ..rocking.ensemble import RockingEnsemble
+    from .random_headings import Carts
 
 
+@overload
+def run_ensemble(
+    sliders: Carts,
+    motions: AnyMotions,
+    *,
+    members: SupportsIndex,
+    seed: SupportsIndex,
+    first_member: SupportsIndex = 0,
+    threads: SupportsIndex | None = None,
+    settle: bool = False,
+    walls: Walls | None = None,
+    progress: bool | Progress = False,
+) -> CartEnsemble: ...
 @overload
 def run_ensemble(
     sliders: AnySliders,
@@ -54,7 +70,7 @@ def run_ensemble(
     progress: bool | Progress = False,
 ) -> RockingEnsemble: ...
 def run_ensemble(
-    sliders: AnySliders | Blocks,
+    sliders: AnySliders | Blocks | Carts,
     motions: AnyMotions,
     *,
     members: SupportsIndex,
@@ -66,11 +82,12 @@ def run_ensemble(
     contact: str | None = None,
     velocity_spectrum: bool = True,
     ground_acceleration: bool = False,
+    walls: Walls | None = None,
     progress: bool | Progress = False,
     executor: Executor | None = None,
     checkpoint: str | os.PathLike[str] | None = None,
     checkpoint_every: float = 30.0,
-) -> Ensemble | RockingEnsemble:
+) -> Ensemble | RockingEnsemble | CartEnsemble:
     """Simulate many members and compute statistics of their responses.
 
     x'' + resist sgn(x') + c x' + wn^2 x = -n(t), from rest at x = 0; thesis 4.4, 5.4. A member is a
@@ -119,6 +136,8 @@ def run_ensemble(
     ground_acceleration : bool, optional
         Also compute mean and variance of the ground acceleration by time, if durations are equal;
         this makes each motion a second time. Not with sliders in the plane.
+    walls : sequence, optional
+        With carts, walls whose clearance is asked, see `integrate`.
     progress : bool or callable, optional
         True: a bar on stderr (a line for each tenth if that is not a terminal). A callable gets the
         numbers of members done and in total, about ten times a second.
@@ -139,7 +158,8 @@ def run_ensemble(
     Ensemble
         Identical to the last bit for any threads, executor and parts, and for a resumed run. With
         a `SlenderBlock` or a `RockingBlock`, a list of them or a `Random` that makes them, a
-        `RockingEnsemble`, of probabilities of overturning; `dt`, `contact`, `velocity_spectrum`,
+        `RockingEnsemble`, of probabilities of overturning; with a `Cart`, a list of them or
+        `Cart.with_random_headings`, a `CartEnsemble`; `dt`, `contact`, `velocity_spectrum`,
         `ground_acceleration`, `executor` and `checkpoint` are then refused.
 
     Raises
@@ -188,14 +208,17 @@ def run_ensemble(
     Thesis 4.4, 5.4; P. Pebay, Formulas for robust, one-pass parallel computation of covariances and
     arbitrary-order statistical moments, SAND2008-6212 (2008).
     """
-    from ..rocking.ensemble import has_blocks, run_blocks
+    from ..carts.ensemble import run_carts
+    from ..rocking.ensemble import run_blocks
+    from ..runs.outcomes import SYSTEMS, first_of
 
     total = whole_number(members, "run_ensemble: members", 1)
     first = whole_number(first_member, "run_ensemble: first_member", 0)
     count = 0 if threads is None else whole_number(threads, "run_ensemble: threads", 1, 2**16)
     check_executor("run_ensemble", executor, None if threads is None else count)
     key = whole_number(seed, "run_ensemble: seed", 0)
-    if has_blocks(sliders, key, first):
+    if isinstance(one := first_of(sliders, key, first), SYSTEMS):
+        carts = isinstance(one, Cart)
         for name, given in (
             ("dt", dt is not None),
             ("contact", contact is not None),
@@ -203,20 +226,19 @@ def run_ensemble(
             ("ground_acceleration", ground_acceleration),
             ("executor", executor is not None),
             ("checkpoint", checkpoint is not None),
+            ("walls", walls is not None and not carts),
         ):
             if given:
-                raise ValueError(f"run_ensemble: {name} does not apply to blocks that rock")
+                to = "carts" if carts else "blocks that rock"
+                raise ValueError(f"run_ensemble: {name} does not apply to {to}")
+        how: dict[str, Any] = {"members": total, "first_member": first, "seed": key}
+        how |= {"settle": settle, "threads": count}
         with shown(progress) as show:
-            return run_blocks(
-                sliders,
-                motions,
-                members=total,
-                first_member=first,
-                seed=key,
-                settle=settle,
-                threads=count,
-                show=show,
-            )
+            if carts:
+                return run_carts(sliders, motions, walls=walls, show=show, **how)
+            return run_blocks(sliders, motions, show=show, **how)
+    if walls is not None:
+        raise ValueError("run_ensemble: walls are for carts")
     options = {
         "seed": key,
         "dt": 0.0 if dt is None else _positive("dt", dt),

@@ -19,6 +19,7 @@ except ImportError as error:
 
 from .animation import Animation, animate
 from .animation import check_moving_suffix as check_moving_suffix
+from .carts import plot_cart_response
 from .comparison import plot_comparison
 from .directions import plot_orientations
 from .ensemble import plot_ensemble
@@ -47,6 +48,7 @@ from .trajectory import sticks, without_contact
 __all__ = [
     "Animation",
     "animate",
+    "plot_cart_response",
     "plot_comparison",
     "plot_design_chart",
     "plot_ensemble",

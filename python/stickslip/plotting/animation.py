@@ -18,6 +18,7 @@ from matplotlib.patches import Circle, Polygon, Rectangle
 from numpy.typing import NDArray
 
 from .._core import (
+    CartResponse,
     EquipmentOnFloor,
     FlexibleSlope,
     PlanarResponse,
@@ -29,17 +30,17 @@ from .._core import (
 from .._files import replacing
 from .._tables import has_floors
 from ..runs.progress import Progress, shown
+from .carts import film_of_cart
 from .figures import new_figure
 from .panels import near_stops
 from .planar import draw_stop, make_square, name_directions, path_of
 from .player import Film, Group
 from .rocking import block_on_ground
-from .styles import BLUE, GRAY, INK, PALE, VERMILION, put_title, style
+from .styles import BLUE, GRAY, INK, LATER, PALE, VERMILION, put_title, style
 from .trajectory import sticks, window
 from .words import describe, describe_system, unit_for
 
 _FRAMES = 2000  # at most
-_LATER = "#c4c4c4"  # what is still to come
 _SUFFIXES = (".gif", ".mp4", ".html")
 
 
@@ -119,7 +120,7 @@ def check_moving_suffix(file: Path) -> str:
 
 
 def animate(
-    response: Response | PlanarResponse | StructureResponse | RockingResponse,
+    response: Response | PlanarResponse | StructureResponse | RockingResponse | CartResponse,
     *,
     time: tuple[float, float] | None = None,
     speed: float = 1.0,
@@ -133,12 +134,13 @@ def animate(
     pendulum draws it back. It moves by the exact displacement at each frame; the floor moves by the
     displacement of the ground, without its mean and linear trend. Both have the same scale. The
     dishes of bearings are as wide as they must be, and deeper than they are. In the plane: the path
-    as on a map, with the middle of the object on it, a circular stop near it, and north. Of a
-    structure, the floors and what slides, along straight lines between the samples.
+    as on a map, with the middle of the object on it, a circular stop near it, and north; of a cart
+    its outline and wheels. Of a structure, the floors and what slides, along straight lines between
+    the samples.
 
     Parameters
     ----------
-    response : Response, PlanarResponse or StructureResponse
+    response : Response, PlanarResponse, StructureResponse, RockingResponse or CartResponse
     time : tuple of float, optional
         Begin and end of the part to show [s]; default: all of the response.
     speed : float, optional
@@ -176,6 +178,8 @@ def animate(
     draw, inches = _on_axis, (6.0, 4.0)
     if isinstance(response, RockingResponse):
         draw = _rocking
+    elif isinstance(response, CartResponse):
+        draw, inches = film_of_cart, (6.0, 5.0)
     elif isinstance(response, PlanarResponse):
         draw, inches = _in_plane, (6.0, 5.0)
     elif isinstance(response, StructureResponse):
@@ -311,7 +315,7 @@ def _with_history(
     values = length * np.concatenate([values[inside], x])
     order = np.argsort(t, kind="stable")
     points = np.column_stack([t, values])[order]
-    way.plot(*points.T, color=_LATER, linewidth=1)
+    way.plot(*points.T, color=LATER, linewidth=1)
     line = way.plot([], [], color=BLUE, linewidth=1.4)[0]
     dot = way.plot([], [], "o", color=VERMILION, markersize=5, clip_on=False)[0]
     way.axhline(0, color=GRAY, linewidth=0.6, zorder=0)
@@ -454,7 +458,7 @@ def _in_plane(
 ) -> tuple[Figure, Film]:
     figure = new_figure(*inches)
     plan = figure.subplots()
-    length, _ = unit_for(response.peak)
+    length, unit = unit_for(response.peak)
     # As on a map: the axis upward, the transverse component to the right.
     t, place = path_of(response)
     inside = (t > times[0]) & (t < times[-1])
@@ -462,14 +466,15 @@ def _in_plane(
     place = np.concatenate([place[inside], _states(response, times)["displacement"]])
     order = np.argsort(t, kind="stable")
     points = length * place[order, ::-1]
-    plan.plot(*points.T, color=_LATER, linewidth=1, label="path")
+    plan.plot(*points.T, color=LATER, linewidth=1, label="path")
     line = plan.plot([], [], color=BLUE, linewidth=1.4)[0]
     dot = plan.plot([], [], "o", color=VERMILION, markersize=8, zorder=4, clip_on=False)[0]
     draw_stop(plan, response, length)
     if response.peak > 0:
         make_square(plan)
     plan.set_aspect("equal", adjustable="box", anchor="W")  # north is at the right
-    name_directions(plan, response, length)
+    downhill = ", downhill" if response.slider.slope_degrees > 0 else ""
+    name_directions(plan, response.motion, unit, downhill)
     put_title(plan, response.motion, title, describe(response.slider.along_axis))
     film = Film(times)
     film.clock = plan.text(0.02, 0.02, "", transform=plan.transAxes, color=GRAY)

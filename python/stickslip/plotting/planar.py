@@ -10,12 +10,12 @@ from matplotlib.figure import Figure, FigureBase
 from matplotlib.text import OffsetFrom
 
 from .. import _core
-from .._core import PlanarResponse
+from .._core import GroundMotion, PlanarResponse
 from .figures import Place, new_figure
 from .panels import shade_sticks
 from .styles import AT_RIGHT, BLUE, GRAY, INK, VERMILION, put_title, style
 from .trajectory import sticks, window
-from .words import describe, digits, in_places, unit_for, unit_of, with_remark
+from .words import describe, digits, in_places, unit_for, with_remark
 
 
 @overload
@@ -165,7 +165,8 @@ def _draw_map(
         plan.annotate("never slips", (0.5, 0.6), xycoords="axes fraction", ha="center", color=GRAY)
         plan.set(xlim=(-1, 1), ylim=(-1, 1))
     plan.set_aspect("equal", adjustable="box", anchor="W")
-    name_directions(plan, response, length)
+    downhill = ", downhill" if response.slider.slope_degrees > 0 else ""
+    name_directions(plan, response.motion, unit, downhill)
     legend = plan.legend(loc="upper left", bbox_to_anchor=(1, 0.82), fontsize=8, borderaxespad=0.4)
     legend.set_in_layout(False)  # there is room at the right of the square
 
@@ -179,13 +180,12 @@ def draw_stop(plan: Axes, response: PlanarResponse, length: float) -> None:
         plan.plot(gap * np.cos(turn), gap * np.sin(turn), color=INK, linewidth=1.2, label="stop")
 
 
-def name_directions(plan: Axes, response: PlanarResponse, length: float) -> None:
+def name_directions(plan: Axes, motion: GroundMotion, unit: str, downhill: str = "") -> None:
     """Name the axes of a map, with their azimuths and an arrow to the north if they are known."""
-    azimuth = _core._azimuth_of(response.motion.orientation)
+    azimuth = _core._azimuth_of(motion.orientation)
     sides = ("", "") if azimuth is None else (_toward(azimuth), _toward(azimuth + 90))
-    downhill = ", downhill" if response.slider.slope_degrees > 0 else ""
-    plan.set_ylabel(f"along the axis{sides[0]}{downhill} [{unit_of(length)}]")
-    plan.set_xlabel(f"transverse{sides[1]} [{unit_of(length)}]")
+    plan.set_ylabel(f"along the axis{sides[0]}{downhill} [{unit}]")
+    plan.set_xlabel(f"transverse{sides[1]} [{unit}]")
     plan.axhline(0, color=GRAY, linewidth=0.5, zorder=0)
     plan.axvline(0, color=GRAY, linewidth=0.5, zorder=0)
     if azimuth is not None:

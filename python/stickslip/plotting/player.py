@@ -99,6 +99,11 @@ class Group:
         self.places = np.column_stack([x, y])
         self.turn = turn
 
+    def show(self, i: int) -> None:
+        """Put the group where it is in frame i."""
+        self.frame.clear().rotate(0 if self.turn is None else self.turn[i])
+        self.frame.translate(*self.places[i])
+
 
 class Film:
     """What moves in an animation: groups of parts, one color, and a trail with its head.
@@ -127,8 +132,7 @@ class Film:
     def update(self, i: int) -> list[Any]:
         """Show frame i."""
         for group in self.groups:
-            group.frame.clear().rotate(0 if group.turn is None else group.turn[i])
-            group.frame.translate(*group.places[i])
+            group.show(i)
         if self.body:
             self.body[0].set_facecolor(self.body[1][i])
         self.line.set_data(*self.points[: self.shown[i]].T)

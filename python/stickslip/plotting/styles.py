@@ -18,6 +18,7 @@ INK, GRAY, PALE = "#222222", "#8a8a8a", "#e6e6e6"
 BLUE, VERMILION, GREEN = "#0072b2", "#d55e00", "#009e73"
 COLORS = (BLUE, VERMILION, GREEN, "#cc79a7", "#e69f00", "#56b4e9")
 
+LATER = "#c4c4c4"  # of an animation, what is still to come
 AT_RIGHT = {
     "xycoords": "axes fraction",
     "xytext": (6, 0),

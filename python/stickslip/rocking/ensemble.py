@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
-from .._core import Drawn, Interval
+from .._core import Interval
 from .._numbers import real, reals
 from .._tables import Columns
-from .._tabular import Tabular
+from ..runs.outcomes import BLOCKS, OutcomeEnsemble, run_outcomes
 from ..runs.progress import Progress
-from .sweep import BLOCKS, SIDES, UNITS, AnyBlock, results_of, same_kind
+from .sweep import SIDES, UNITS, AnyBlock, results_of
 
 
-class RockingEnsemble(Tabular):
+class RockingEnsemble(OutcomeEnsemble):
     """What the members of a random run of blocks did, as `run_ensemble` returns it.
 
     A single history may be chaotic; these probabilities are the answer, and
@@ -53,35 +53,18 @@ class RockingEnsemble(Tabular):
     `overturned` is 'right', 'left' or empty there.
     """
 
-    def __init__(
-        self,
-        blocks: Sequence[AnyBlock],
-        seed: int,
-        first_member: int,
-        settle: bool,
-        results: Mapping[str, Any],
-    ) -> None:
-        self.blocks = tuple(blocks)
-        self.seed = seed
-        self.first_member = first_member
-        self.settle = settle
-        self.configuration: str = results["configuration"]
-        self.duration: float | None = results["duration"]
-        self.peak_rotation: NDArray[np.float64] = results["peak_rotation"]
-        self.peak_rotation_ratio: NDArray[np.float64] = results["peak_rotation_ratio"]
-        self.overturned: NDArray[np.int8] = results["overturned"]
-        self.overturned_at: NDArray[np.float64] = results["overturned_at"]
-        self.impacts: NDArray[np.int64] = results["impacts"]
-        self.margin: NDArray[np.float64] = results["margin"]
-        self.condition: NDArray[np.float64] = results["condition"]
-        none = np.zeros(len(self.overturned))
-        self.residual: NDArray[np.float64] = results.get("residual", none)
-        self.sliding_distance: NDArray[np.float64] = results.get("sliding_distance", none)
+    _kind = "block"
 
-    @property
-    def members(self) -> int:
-        """Number of members."""
-        return len(self.overturned)
+    blocks: tuple[AnyBlock, ...]
+    peak_rotation: NDArray[np.float64]
+    peak_rotation_ratio: NDArray[np.float64]
+    overturned: NDArray[np.int8]
+    overturned_at: NDArray[np.float64]
+    impacts: NDArray[np.int64]
+    margin: NDArray[np.float64]
+    condition: NDArray[np.float64]
+    residual: NDArray[np.float64]
+    sliding_distance: NDArray[np.float64]
 
     @overload
     def overturning(self, times: None = None, *, confidence: float = 0.95) -> Interval: ...
@@ -181,16 +164,11 @@ def run_blocks(
     show: Progress | None,
 ) -> RockingEnsemble:
     """The ensemble of blocks; see `stickslip.run_ensemble`."""
-    if isinstance(blocks, BLOCKS):
-        these: list[Any] = [blocks]
-    elif hasattr(blocks, "draw"):  # a Random
-        these = [blocks.sample(seed=seed, member=first_member + i) for i in range(members)]
-    else:
-        listed = list(blocks)
-        these = [listed[(first_member + i) % len(listed)] for i in range(min(members, len(listed)))]
-    same_kind(these, "run_ensemble")
-    found = _core.run_blocks(
-        these,
+    return run_outcomes(
+        RockingEnsemble,
+        _core.run_blocks,
+        blocks,
+        BLOCKS,
         motions,
         members=members,
         first_member=first_member,
@@ -199,18 +177,3 @@ def run_blocks(
         threads=threads,
         progress=show,
     )
-    if failures := found.pop("failures"):
-        member, message = failures[0]
-        raise ValueError(f"run_ensemble: member {first_member + member}: {message}")
-    return RockingEnsemble(these, seed, first_member, settle, found)
-
-
-def has_blocks(sliders: Any, seed: int = 0, member: int = 0) -> bool:
-    """Whether what a run takes as sliders are blocks, from the first of them."""
-    if hasattr(sliders, "draw"):  # a Random
-        return isinstance(sliders.sample(seed=seed, member=member), BLOCKS)
-    if isinstance(sliders, Sequence) and len(sliders):
-        return isinstance(sliders[0], BLOCKS)
-    if isinstance(sliders, Drawn) and isinstance(sliders.items[0], BLOCKS):
-        raise TypeError("run_ensemble: Drawn covers sliders; give blocks as a list or a Random")
-    return isinstance(sliders, BLOCKS)

@@ -6,12 +6,10 @@ import os
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from .._core import RockingBlock, RockingResponse, build_info
-from .._optional import optional
-from .._tables import frame_of, html_table, json_text, write_csv
+from .._tables import dataset_of, frame_of, history, html_table, json_text, write_csv
 from .._text import printable
 
 _UNITS = {
@@ -28,15 +26,10 @@ _UNITS = {
 def _columns(response: RockingResponse) -> tuple[dict[str, NDArray[Any]], dict[str, str]]:
     """The time and the histories of a response, and their units."""
 
-    def ground(values: NDArray[np.float64]) -> NDArray[np.float64]:
-        padded = np.zeros(len(response.time))
-        padded[: len(values)] = values
-        return padded
-
-    motion = response.motion
-    columns = {"time": response.time, "ground_acceleration": ground(motion.acceleration)}
-    if motion.vertical is not None:
-        columns["vertical_ground_acceleration"] = ground(motion.vertical)
+    names = ["ground_acceleration"]
+    if response.motion.vertical is not None:
+        names.append("vertical_ground_acceleration")
+    columns = {"time": response.time, **{name: history(response, name) for name in names}}
     columns |= {"rotation": response.rotation, "rate": response.rate}
     if isinstance(response.block, RockingBlock):
         columns |= {
@@ -58,20 +51,14 @@ def to_csv(response: RockingResponse, path: str | os.PathLike[str]) -> Path:
 
 def to_xarray(response: RockingResponse) -> Any:
     """The histories as an xarray Dataset; see `RockingResponse.to_xarray`."""
-    xarray = optional("xarray", "tables", "RockingResponse.to_xarray")
-    columns, units = _columns(response)
-    at = columns.pop("time")
-    return xarray.Dataset(
-        {name: ("time", values, {"units": units[name]}) for name, values in columns.items()},
-        coords={"time": ("time", at, {"units": "s"})},
-        attrs={
-            "block": repr(response.block),
-            "motion": response.motion.name,
-            "peak_rotation": response.peak_rotation,
-            "peak_rotation_units": "rad",
-            "overturned": response.overturned or "",
-        },
-    )
+    attrs = {
+        "block": repr(response.block),
+        "motion": response.motion.name,
+        "peak_rotation": response.peak_rotation,
+        "peak_rotation_units": "rad",
+        "overturned": response.overturned or "",
+    }
+    return dataset_of(*_columns(response), "RockingResponse.to_xarray", attrs)
 
 
 _OF_RIGID = ("residual", "sliding_distance", "time_sliding", "liftoffs", "impacts_with_slip")

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from .. import _core
 from .._core import (
+    Cart,
     EquipmentOnFloor,
     FlexibleSlope,
     FrictionLaw,
@@ -27,12 +28,14 @@ from .._core import (
     Slider,
 )
 from .._units import warn_of_units
+from ..carts.sweep import CartTable, Walls, sweep_carts
+from ..ensemble.random_headings import Carts
 from ..ensemble.random_slider import Random
 from ..ensemble.sources import check_directions
 from ..motions.suite import Suite
-from ..rocking.ensemble import has_blocks
-from ..rocking.sweep import BLOCKS, AnyBlock, RockingTable, same_kind, sweep_blocks
+from ..rocking.sweep import AnyBlock, RockingTable, sweep_blocks
 from ..runs import parts
+from ..runs.outcomes import SYSTEMS, first_of, same_kind
 from ..runs.progress import Progress, shown
 from .checkpoint import Checkpoint
 from .parameter_grid import AnySwept, Grid
@@ -45,6 +48,21 @@ _SLIDERS = (*_STRUCTURES, PlanarSlider, Slider, FrictionLaw)
 _PARTS = 64  # number of parts of the records for an executor
 
 
+@overload
+def sweep(  # type: ignore[overload-overlap]
+    sliders: Carts,
+    motions: GroundMotion | Sequence[GroundMotion],
+    *,
+    scale: ArrayLike | None = None,
+    walls: Walls | None = None,
+    members: SupportsIndex | None = None,
+    seed: SupportsIndex | None = None,
+    stratified: bool = False,
+    polarity: Polarity = "both",
+    settle: bool = False,
+    threads: SupportsIndex | None = None,
+    progress: bool | Progress = False,
+) -> CartTable: ...
 @overload
 def sweep(
     sliders: AnySwept | Sequence[AnySwept] | Random,
@@ -76,6 +94,7 @@ def sweep(
 def sweep(
     sliders: AnySwept
     | AnyBlock
+    | Carts
     | Sequence[AnySwept]
     | Sequence[SlenderBlock]
     | Sequence[RockingBlock]
@@ -83,6 +102,7 @@ def sweep(
     motions: GroundMotion | Sequence[GroundMotion],
     *,
     scale: ArrayLike | None = None,
+    walls: Walls | None = None,
     members: SupportsIndex | None = None,
     seed: SupportsIndex | None = None,
     stratified: bool = False,
@@ -94,7 +114,7 @@ def sweep(
     executor: Executor | None = None,
     checkpoint: str | os.PathLike[str] | None = None,
     checkpoint_every: float = 30.0,
-) -> SweepTable | RockingTable:
+) -> SweepTable | RockingTable | CartTable:
     """Integrate many sliders under many ground motions, from rest at x = 0.
 
     x'' + resist sgn(x') + c x' + wn^2 x = -n(t), thesis (4.51) to (4.53), (2.44), (2.50), (4.2);
@@ -111,7 +131,10 @@ def sweep(
         Records, which may differ in length and time step. In the plane they need a transverse
         component, as `read_station` and ``Suite.read(..., stations=True)`` give them.
     scale : float or array_like, optional
-        With blocks that rock, factors of the ground motions, finite and at least 0; default: 1.
+        With blocks that rock and carts, factors of the ground motions, finite and at least 0;
+        default: 1.
+    walls : sequence, optional
+        With carts, walls whose clearance is asked, see `integrate`.
     members, seed : int, optional
         Number of sliders to draw from a `Random`, at least 1, and the seed, from 0 to 2^64 - 1;
         both are needed with a `Random`. Slider i equals ``sliders.sample(seed=seed, member=i)``.
@@ -145,8 +168,8 @@ def sweep(
     SweepTable
         Arrays over [slider, record, polarity]; identical to the last bit for any threads, executor
         and parts, and for a resumed run. With a `SlenderBlock` or a `RockingBlock`, a list of them
-        or a `Random` that makes them, a `RockingTable` over [block, record, scale, polarity];
-        `contact`, `executor` and `checkpoint` are then refused.
+        or a `Random` that makes them, a `RockingTable` over [block, record, scale, polarity]; with
+        a `Cart`, likewise a `CartTable`; `contact`, `executor` and `checkpoint` are then refused.
 
     Raises
     ------
@@ -189,8 +212,8 @@ def sweep(
     stops to 1e-9. This needs even steps, classical damping and equipment without mass.
     """
     given = _drawn(sliders, members, seed, stratified)
-    rocks = has_blocks(given)
-    these: list[Any] = _blocks(given) if rocks else _sliders(given)
+    other = isinstance(first_of(given), SYSTEMS)
+    these: list[Any] = _systems(given) if other else _sliders(given)
     if not isinstance(motions, (GroundMotion, Iterable)):
         raise TypeError(
             "sweep: motions must be a GroundMotion, a Suite or a list of GroundMotion, got"
@@ -216,20 +239,26 @@ def sweep(
     check_directions(those, "sweep")
     signs = POLARITIES if polarity == "both" else (polarity,)
     varied = getattr(given, "parameters", {})
-    if rocks:
+    if other:
+        carts = isinstance(these[0], Cart)
         for name, value in (
             ("contact", contact),
             ("executor", executor),
             ("checkpoint", checkpoint),
+            ("walls", None if carts else walls),
         ):
             if value is not None:
-                raise ValueError(f"sweep: {name} does not apply to blocks that rock")
+                to = "carts" if carts else "blocks that rock"
+                raise ValueError(f"sweep: {name} does not apply to {to}")
+        args = these, varied, those, _metadata(motions), scale, signs, settle, count
         with shown(progress, who="sweep", things="combinations") as show:
-            return sweep_blocks(
-                these, varied, those, _metadata(motions), scale, signs, settle, count, show
-            )
+            return sweep_carts(*args, show, walls) if carts else sweep_blocks(*args, show)
     if scale is not None:
-        raise ValueError("sweep: scale is for blocks that rock; scale the motions: 2 * motion")
+        raise ValueError(
+            "sweep: scale is for blocks that rock and carts; scale the motions: 2 * motion"
+        )
+    if walls is not None:
+        raise ValueError("sweep: walls are for carts")
     contact = _core._contact_of(contact, "sweep", isinstance(these[0], _STRUCTURES))
     table = SweepTable.empty(
         sliders=[repr(s) for s in these],
@@ -271,8 +300,8 @@ def sweep(
     return table
 
 
-def _blocks(given: Any) -> list[Any]:
-    these = [given] if isinstance(given, BLOCKS) else list(given)
+def _systems(given: Any) -> list[Any]:
+    these = [given] if isinstance(given, SYSTEMS) else list(given)
     same_kind(these, "sweep")
     return these
 

@@ -1,0 +1,358 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+
+#include "carts/carts.hpp"
+#include "in_python.hpp"
+#include "planar/response.hpp"
+#include "sliding/response.hpp"
+#include "sliding/units_remark.hpp"
+#include "statistics/estimate.hpp"
+
+namespace stickslip::python {
+namespace {
+
+using Self = CartResponseWithInputs;
+
+const CartAsGiven& its_cart(const Self& self) { return self.cart.cast<const CartAsGiven&>(); }
+const GroundMotion& motion_of(const Self& self) { return self.motion.cast<const GroundMotion&>(); }
+
+std::u32string_view name_of(CartEventKind kind) {
+  switch (kind) {
+    case CartEventKind::breakaway:
+      return U"breakaway";
+    case CartEventKind::rest:
+      return U"rest";
+    case CartEventKind::slip:
+      return U"slip";
+    case CartEventKind::stick:
+      return U"stick";
+    case CartEventKind::reversal:
+      return U"reversal";
+    case CartEventKind::end:
+      return U"end";
+  }
+  return U"";
+}
+
+py::array events_array(const std::vector<CartEvent>& events) {
+  struct Row {
+    double time;
+    Vector2 displacement;
+    double yaw;
+    char32_t kind[10];
+    std::int64_t support;
+    char32_t line[6];
+  };
+  py::dict layout;
+  layout["names"] = py::make_tuple("time", "displacement", "yaw", "kind", "support", "line");
+  layout["formats"] = py::make_tuple("f8", "(2,)f8", "f8", "U10", "i8", "U6");
+  layout["offsets"] = py::make_tuple(offsetof(Row, time), offsetof(Row, displacement), offsetof(Row, yaw),
+                                     offsetof(Row, kind), offsetof(Row, support), offsetof(Row, line));
+  layout["itemsize"] = sizeof(Row);
+  py::array rows(py::dtype::from_args(layout), static_cast<py::ssize_t>(events.size()));
+  auto* row = static_cast<Row*>(rows.mutable_data());
+  for (const CartEvent& e : events) {
+    const bool of_line = e.support != CartEvent::no_support;
+    *row = {e.time, e.displacement, e.yaw, {}, of_line ? static_cast<std::int64_t>(e.support) : -1, {}};
+    std::ranges::copy(name_of(e.kind), row->kind);
+    const std::u32string_view line = !of_line ? U"" : e.along ? U"along" : U"across";
+    std::ranges::copy(line, row->line);
+    ++row;
+  }
+  return rows;
+}
+
+py::array work_array(const std::vector<SupportWork>& work) {
+  py::dict layout;
+  layout["names"] = py::make_tuple("scrub", "roll", "slide");
+  layout["formats"] = py::make_tuple("f8", "f8", "f8");
+  py::array rows(py::dtype::from_args(layout), static_cast<py::ssize_t>(work.size()));
+  static_assert(sizeof(SupportWork) == 3 * sizeof(double));
+  std::ranges::copy(work, static_cast<SupportWork*>(rows.mutable_data()));
+  rows.attr("setflags")(py::arg("write") = false);
+  return rows;
+}
+
+template <auto member>
+auto history() {
+  return [](const py::object& self) { return view(self.cast<const Self&>().response.*member, self); };
+}
+template <auto member>
+auto number() {
+  return [](const Self& self) { return self.response.*member; };
+}
+
+/// Of shape (casters, samples), over the memory of the response.
+py::array_t<double> heading_of(const py::object& self) {
+  const CartResponse& r = self.cast<const Self&>().response;
+  const auto samples = static_cast<py::ssize_t>(r.displacement.size());
+  const py::ssize_t casters = static_cast<py::ssize_t>(r.headings.size()) / samples, wide = sizeof(double);
+  py::array_t<double> array({casters, samples}, {wide, casters * wide}, r.headings.data(), self);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+std::string remark_of(const Self& self) {
+  const GroundMotion& motion = motion_of(self);
+  const double peak = motion.peak_acceleration();
+  if (self.response.time_moving > 0 || !(peak > 0 && peak <= most_g)) return "";
+  const Cart& cart = its_cart(self).cart();
+  const double c = std::cos(self.yaw), s = std::sin(self.yaw);
+  for (std::size_t i = 0; i < motion.samples(); ++i) {
+    const Vector2 ground{motion.acceleration()[i], motion.transverse()[i]};
+    const double size = norm(ground);
+    if (!(size > 0)) continue;
+    const Vector2 load{c * ground.axis + s * ground.transverse, c * ground.transverse - s * ground.axis};
+    if (size * standard_gravity > cart.holds(load))
+      return "the cart never moves: the peak ground acceleration is " + digits(peak) + " m/s^2 (" +
+             digits(peak / standard_gravity) + " g); if the accelerations are in g, give units=\"g\": at " +
+             digits(peak) + " g it does";
+  }
+  return "";
+}
+
+CartResponse integrated(const Self& how, const std::vector<Wall>& walls) {
+  const Cart& cart = its_cart(how).cart();
+  const GroundMotion& ground = motion_of(how);
+  const py::gil_scoped_release released;
+  return integrate(cart, ground, {how.yaw, how.velocity, how.yaw_rate, how.settle, walls, check_for_interrupt});
+}
+
+Self integrate_cart(const CartAsGiven& cart, const py::object& motion, double yaw, const py::object& velocity,
+                    double yaw_rate, bool settle, const py::object& walls) {
+  both_components(motion, "integrate", "Cart");
+  Self self{{},       py::cast(cart),
+            motion,   yaw,
+            yaw_rate, to_vector2(velocity, "integrate: velocity", "m/s"),
+            settle,   walls_of(walls, "integrate: walls")};
+  self.response = integrated(self, self.walls);
+  return self;
+}
+
+std::optional<double> unless_nan(double value) { return std::isnan(value) ? std::nullopt : std::optional(value); }
+
+}  // namespace
+
+Wall wall_of(const py::object& given, const std::string& name) {
+  if (!py::isinstance<py::sequence>(given) || py::len(given) != 2)
+    throw std::invalid_argument(name +
+                                " must be two vectors, a point on it and its direction, such as ((1.5, 0), (0, 1))");
+  const py::sequence pair = given;
+  return {to_vector2(pair[0], name + "[0]", "m"), to_vector2(pair[1], name + "[1]")};
+}
+
+std::vector<Wall> walls_of(const py::object& given, const std::string& name) {
+  std::vector<Wall> walls;
+  for (const py::handle one : given)
+    walls.push_back(wall_of(py::reinterpret_borrow<py::object>(one), name + "[" + std::to_string(walls.size()) + "]"));
+  return walls;
+}
+
+void bind_cart_response(py::module_& m) {
+  value_class<CartEnergy>(m, "CartEnergy", R"(Energy balance of a cart, per unit mass [m^2/s^2].
+
+initial + input = dissipated + kinetic, to round-off.)")
+      .def_readonly("initial", &CartEnergy::initial, "Kinetic energy at the start.")
+      .def_readonly("input", &CartEnergy::input, "Work of the ground, the integral of -(a_x x' + a_y y') dt.")
+      .def_readonly("dissipated", &CartEnergy::dissipated, "Work against friction.")
+      .def_readonly("kinetic", &CartEnergy::kinetic, "Kinetic energy at the end.")
+      .def_property_readonly(
+          "by_support", [](const CartEnergy& e) { return work_array(e.by_support); },
+          R"(The work against friction at each support: a structured array of shape (supports,).
+
+Fields: scrub, across a wheel; roll, along it; slide, of a foot.)")
+      .def_property_readonly(
+          "imbalance", [](const CartEnergy& e) { return e.imbalance(); }, "Residual of the energy balance (round-off).")
+      .def("__repr__", [](const CartEnergy& e) {
+        return "<CartEnergy [m^2/s^2]: initial " + digits(e.initial) + ", input " + digits(e.input) + ", dissipated " +
+               digits(e.dissipated) + ", kinetic " + digits(e.kinetic) + ">";
+      });
+
+  value_class<Clearance>(m, "Clearance", "How near the outline of a cart came to a wall.")
+      .def_readonly("least", &Clearance::least,
+                    "Least distance of a corner to the wall [m]; negative: it would have hit.")
+      .def_readonly("time", &Clearance::time, "Time of the least distance [s].")
+      .def_property_readonly(
+          "hit_time", [](const Clearance& c) { return unless_nan(c.hit_time); },
+          "Time of the first contact [s]; None without one.")
+      .def_property_readonly(
+          "hit_speed", [](const Clearance& c) { return unless_nan(c.hit_speed); },
+          "Speed of the corner toward the wall at the first contact [m/s]; None without one.")
+      .def("__repr__", [](const Clearance& c) {
+        return "<Clearance: least " + digits(c.least) + " m at " + digits(c.time) + " s" +
+               (std::isnan(c.hit_time) ? std::string()
+                                       : ", hit at " + digits(c.hit_time) + " s with " + digits(c.hit_speed) + " m/s") +
+               ">";
+      });
+
+  value_class<Self>(m, "CartResponse",
+                    R"(The response of a cart, as `integrate` returns it for a `Cart`.
+
+Displacements are relative to the ground, along its axis and along its transverse direction. The arrays are read-only.)")
+      .def_property_readonly(
+          "cart", [](const Self& r) { return r.cart; }, "The `Cart`.")
+      .def_property_readonly(
+          "motion", [](const Self& r) { return r.motion; }, "The ground motion.")
+      .def_property_readonly(
+          "time",
+          [](Self& r) {
+            return keep(r.time, [&] { return times_of(r.motion, motion_of(r), r.response.displacement.size()); });
+          },
+          R"(Times of the samples [s], shape (N,).
+
+The times of the ground motion. With `settle=True`, if the cart still moves at the last of them, samples continue with the
+last step of the motion up to the first at or after rest; but see `truncated`.)")
+      .def_property_readonly("displacement", history<&CartResponse::displacement>(),
+                             "Displacement of the center of mass at `time` [m], shape (N, 2).")
+      .def_property_readonly("velocity", history<&CartResponse::velocity>(),
+                             "Velocity of the center of mass at `time` [m/s], shape (N, 2).")
+      .def_property_readonly("yaw", history<&CartResponse::yaw>(),
+                             "phi at `time` [rad], shape (N,), positive from the axis toward the transverse direction.")
+      .def_property_readonly("yaw_rate", history<&CartResponse::yaw_rate>(), "phi' at `time` [rad/s], shape (N,).")
+      .def_property_readonly("heading", &heading_of,
+                             "Headings of the casters relative to the cart at `time` [rad], shape (casters, N).")
+      .def_property_readonly(
+          "events", [](Self& r) { return keep(r.events, [&] { return events_array(r.response.events); }); },
+          R"(Events sorted by time: a structured array.
+
+Fields: time [s], displacement of the center of mass [m], of shape (2,), yaw [rad], kind ('breakaway', 'rest', 'slip', 'stick',
+'reversal' or 'end'), and of the last three but 'end' the number of the support, from 0, and the line, 'across' a wheel or
+'along' it; else -1 and ''. A line across a wheel that sticks rolls straight, one that slips scrubs.)")
+      .def_property_readonly("peak", number<&CartResponse::peak>(),
+                             "Largest displacement of the center of mass over all time, not only at samples [m].")
+      .def_property_readonly("peak_time", number<&CartResponse::peak_time>(), "Time of `peak` [s].")
+      .def_property_readonly("peak_yaw", number<&CartResponse::peak_yaw>(),
+                             "Largest change of the yaw since the start, in magnitude [rad].")
+      .def_property_readonly("peak_outline", number<&CartResponse::peak_outline>(),
+                             "Largest displacement of a corner of the outline [m].")
+      .def_property_readonly("peak_outline_time", number<&CartResponse::peak_outline_time>(),
+                             "Time of `peak_outline` [s].")
+      .def_property_readonly("peak_corner", number<&CartResponse::peak_corner>(),
+                             "The corner that moved farthest, its place in `Cart.outline`.")
+      .def_property_readonly(
+          "reach_outline",
+          [](const Self& r) {
+            const Reach& reach = r.response.reach;
+            return std::tuple(reach.low.axis, reach.low.transverse, reach.high.axis, reach.high.transverse);
+          },
+          R"(The rectangle that the outline sweeps, relative to the center of mass at the start [m].
+
+Smallest and largest place along the axis and along the transverse direction: (xmin, ymin, xmax, ymax).)")
+      .def_property_readonly(
+          "residual", [](const Self& r) { return array_of(r.response.residual); },
+          "Displacement of the center of mass at the end [m], shape (2,); final if the cart rests.")
+      .def_property_readonly("residual_yaw", number<&CartResponse::residual_yaw>(),
+                             "Change of the yaw at the end [rad].")
+      .def_property_readonly("time_moving", number<&CartResponse::time_moving>(), "Time spent moving [s].")
+      .def_property_readonly("rests", number<&CartResponse::rests>(), "Number of rests, that at the start included.")
+      .def_property_readonly("margin", number<&CartResponse::margin>(),
+                             R"(Distance of the nearest decision; infinite without one.
+
+The smallest distance of a decision between stick and slip from the other one, over the accelerations that take part. If
+it is tiny, the history hangs on round-off. Histories are sensitive anyhow while casters swivel against their motion: answer
+in distributions over the headings, see `Cart.with_random_headings`.)")
+      .def_property_readonly("clearances", number<&CartResponse::clearances>(),
+                             "The `Clearance` of each of the walls that `integrate` was given.")
+      .def(
+          "clearance",
+          [](const Self& r, const py::object& wall) {
+            return integrated(r, {wall_of(wall, "CartResponse.clearance: wall")}).clearances.front();
+          },
+          py::arg("wall"),
+          R"(How near the outline came to a straight wall, which the motion does not feel. Integrates again.
+
+Parameters
+----------
+wall : ((float, float), (float, float))
+    A point on it, relative to the center of mass at the start [m], and its direction, not zero.
+
+Returns
+-------
+Clearance
+
+Raises
+------
+ValueError
+    A value that is not finite, or a direction that is zero.)")
+      .def_property_readonly("energy", number<&CartResponse::energy>(), "The `CartEnergy`.")
+      .def_property_readonly("remark", &remark_of,
+                             R"(A sentence about limits of the result; empty if there are none (str).
+
+A cart that never moves, but would if the ground accelerations were in g.)")
+      .def_property_readonly(
+          "at_rest", [](const Self& r) { return r.response.state.mode == CartMode::rest; },
+          "Whether the cart is at rest at the end (bool).")
+      .def_property_readonly("state", number<&CartResponse::state>(),
+                             "The `CartState` at the end; `advance` can continue from it.")
+      .def_property_readonly("truncated", number<&CartResponse::truncated>(),
+                             R"(Whether the samples end before the cart comes to rest (bool).
+
+Samples end at ten times the number of samples of the ground motion. Peak, events and energy still include the motion up to
+rest.)")
+      .def_property_readonly("components", number<&CartResponse::components>(),
+                             "Components of the ground motion that acted, such as 'axis + transverse' (str).")
+      .def(
+          "plot",
+          [](const py::object& self, const py::object& figure, const py::object& title) {
+            return py::module_::import("stickslip.plotting").attr("plot_cart_response")(self, figure, title);
+          },
+          py::kw_only(), py::arg("figure") = py::none(), py::arg("title") = py::none(),
+          R"(Plot the path from above with the outline and the wheels at start, peak and end; and displacements over time.
+
+Needs matplotlib (`pip install stickslip[plot]`). Takes `figure`, a matplotlib Figure or SubFigure to draw in, and `title`.
+Returns the figure, see `stickslip.plotting.plot_cart_response`.)")
+      .def("animate", animation(), py::kw_only(), py::arg("time") = py::none(), py::arg("speed") = 1.0,
+           py::arg("fps") = 15.0, py::arg("title") = py::none(), py::arg("size") = py::none(),
+           R"(Show the cart from above as it moves and turns on the ground.
+
+Needs matplotlib. Takes `time`, the begin and end of the part to show [s], `speed`, seconds of the motion in a second of
+the animation, `fps`, frames in a second, `title`, and `size`, width and height [inches]. Returns an animation: a notebook
+shows it, its `write` saves it as .gif, .mp4 or .html; see `stickslip.plotting.animate`.)")
+      .def("to_dataframe", in_python("stickslip.carts.tables", "to_dataframe"),
+           R"(Convert the histories to a pandas DataFrame over `time` [s].
+
+Columns `ground_acceleration` and `transverse_ground_acceleration` [m/s^2], `vertical_ground_acceleration` if it acted,
+`displacement_axis` and `displacement_transverse` [m], `velocity_axis` and `velocity_transverse` [m/s], `yaw` [rad], `yaw_rate`
+[rad/s], and `heading_0` [rad] and so on, of each caster; units are in `attrs["units"]`. ImportError without pandas.)")
+      .def("to_xarray", in_python("stickslip.carts.tables", "to_xarray"),
+           R"(Convert the histories to an xarray Dataset over the coordinate `time`.
+
+The variables are the columns of `to_dataframe`, each with the attribute `units`. ImportError without xarray.)")
+      .def("to_csv", csv_in("stickslip.carts.tables", "to_csv"), py::arg("path"),
+           csv_doc("Write the histories to a CSV file, whole or not at all.",
+                   "A line of names with units, then one line per sample; every number reads back as the same double.")
+               .c_str())
+      .def("to_json", in_python("stickslip.carts.tables", "to_json"),
+           R"(The results and histories as one JSON document, for instance for a web page.
+
+Returns
+-------
+str
+    An object with `cart`, `motion`, the results under the names of the attributes, `units` by name, the columns of
+    `to_dataframe` as lists, and `events`. Numbers read back to the same double; NaN and infinity are null.)")
+      .def("_repr_html_", in_python("stickslip.carts.tables", "response_html"))
+      .def("__repr__", [](const Self& self) {
+        const CartResponse& r = self.response;
+        const std::string remark = remark_of(self);
+        return "<CartResponse: peak " + digits(r.peak) + " m, of the outline " + digits(r.peak_outline) + " m, yaw " +
+               digits(r.peak_yaw) + " rad, residual (" + digits(r.residual.axis) + ", " +
+               digits(r.residual.transverse) + ") m, " + std::to_string(r.events.size()) + " events" +
+               (r.truncated ? ", samples end before rest" : "") + (remark.empty() ? "" : "; " + remark) + ">";
+      });
+
+  m.def(
+      "integrate", &integrate_cart, py::arg("slider"), py::arg("motion"), py::kw_only(), py::arg("yaw") = 0.0,
+      py::arg("velocity") = py::make_tuple(0.0, 0.0), py::arg("yaw_rate") = 0.0, py::arg("settle") = false,
+      py::arg("walls") = py::tuple(),
+      R"(With a `Cart`, which moves in the plane and turns, from `yaw` [rad], `velocity` of its center of mass [m/s], of
+shape (2,), and `yaw_rate` [rad/s]. Both horizontal components of the ground motion act, and a vertical one. `walls` are pairs
+of a point, relative to the center of mass at the start [m], and a direction, whose clearance is asked. Returns a
+`CartResponse`.
+
+Exact to round-off, which grows while casters swivel against their motion; some 20 us per event. ValueError also for a motion
+without a transverse component, and with `settle` for a cart without rolling resistance, which may roll for ever.)");
+}
+
+}  // namespace stickslip::python
