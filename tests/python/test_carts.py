@@ -1,5 +1,6 @@
 """Carts from Python: limits that have other answers, bad inputs, runs, files and pictures."""
 
+import csv
 import itertools
 import json
 import math
@@ -12,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stickslip as ss
+from stickslip import cli
 
 G = ss.STANDARD_GRAVITY
 M = np.arange(161)
@@ -389,6 +391,38 @@ def test_pictures(factor, tmp_path):
     assert turn.get_xlabel() == "time [s]"
     film = r.animate(time=(2, 3), speed=2)
     assert film.write(tmp_path / "cart.html").stat().st_size > 10_000
+
+
+@pytest.fixture
+def station(tmp_path):
+    """A file with both components, and one of a cart."""
+    rows = (f"{0.05 * i:.2f},{x},{y}" for i, (x, y) in enumerate(zip(ALONG, ACROSS)))
+    (tmp_path / "a.csv").write_text("\n".join(["time [s],N [m/s^2],E [m/s^2]", *rows]))
+    (tmp_path / "cart.json").write_text(CART.to_json())
+    return [str(tmp_path / name) for name in ("cart.json", "a.csv")]
+
+
+def test_the_command_prints_what_the_library_finds(station, capsys, tmp_path):
+    wall = ["--wall", "0.6", "0", "0", "1"]
+    assert cli.main(["cart", *station, *wall, "--scale", "0.5", "1", "--json"]) == 0
+    rows = json.loads(capsys.readouterr().out)["results"]
+    for row, scale in zip(rows, (0.5, 1), strict=True):
+        r = ss.integrate(CART, QUAKE.scaled(scale), settle=True, walls=[WALL])
+        assert row["peak_outline_m"] == pytest.approx(r.peak_outline, rel=1e-9)
+        assert row["clearance_m"] == pytest.approx(r.clearances[0].least, abs=1e-9)
+        assert row["margin"] == pytest.approx(r.margin, rel=1e-3)
+    members = ["--members", "8", "--seed", "3"]
+    assert cli.main(["cart", *station, *members, "--csv", str(tmp_path / "m.csv")]) == 0
+    assert "corner [cm] 50%" in capsys.readouterr().out
+    (found,) = csv.DictReader((tmp_path / "m.csv").read_text().splitlines())
+    e = ss.run_ensemble(CART.with_random_headings(), QUAKE, members=8, seed=3, settle=True)
+    median = float(found["peak_outline_m_50"])
+    assert median == pytest.approx(e.quantile(0.5).value, rel=1e-6)
+    assert cli.main(["cart", *station, *members, "--plot", str(tmp_path / "r.png")]) == 2
+    assert "--plot shows one response" in capsys.readouterr().err
+    (tmp_path / "cart.json").write_text("{}")
+    assert cli.main(["cart", *station]) == 2
+    assert "must be an object with a list of supports" in capsys.readouterr().err
 
 
 def entries():

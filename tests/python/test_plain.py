@@ -104,7 +104,8 @@ def test_signatures_say_what_a_call_takes():
         (
             ss.integrate,
             "(slider, motion, *, displacement=0.0, velocity=0.0, settle=False, contact='flight',"
-            " sliding_distance=0.0, heat=None, rotation=0.0, rate=0.0)",
+            " sliding_distance=0.0, heat=None, rotation=0.0, rate=0.0, yaw=0.0, yaw_rate=0.0,"
+            " walls=())",
         ),
         (ss.GroundMotion.scaled, "(self, factor)"),
         (ss.Response.plot, "(self, *, figure=None, title=None, time=None)"),
