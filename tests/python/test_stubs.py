@@ -116,9 +116,9 @@ trolley = ss.Cart([wheel_of_cart, ss.Foot(at=(0, 0), mu=0.3), locked], radius_of
 rolled = ss.integrate(trolley, quake, walls=[((1.5, 0), (0, 1))])
 corner: float = rolled.peak_outline + rolled.clearance(((2, 0), (0, 1))).least
 turned: NDArray[np.float64] = rolled.heading
-drawn = trolley.with_random_headings()
-reached: ss.Interval = ss.run_ensemble(drawn, quake, members=2, seed=1).exceedance(0.1)
-corners: NDArray[np.float64] = ss.sweep(drawn, quake, members=2, seed=1).peak_outline
+parked = trolley.with_random_headings()
+reached: ss.Interval = ss.run_ensemble(parked, quake, members=2, seed=1).exceedance(0.1)
+corners: NDArray[np.float64] = ss.sweep(parked, quake, members=2, seed=1).peak_outline
 ss.advance(trolley, ss.CartState(yaw=1), 0.01, (0, 1)).headings.tolist()
 far = max(r.peak, r.residual, r.sliding_distance, r.time_sliding)
 same: bool = block == wheel or hash(block) == hash(cart)

@@ -351,7 +351,7 @@ shape (2,), and `yaw_rate` [rad/s]. Both horizontal components of the ground mot
 of a point, relative to the center of mass at the start [m], and a direction, whose clearance is asked. Returns a
 `CartResponse`.
 
-Exact to round-off, which grows while casters swivel against their motion; some 20 us per event. ValueError also for a motion
+Exact to round-off, which grows while casters swivel against their motion; some 30 us per event. ValueError also for a motion
 without a transverse component, and with `settle` for a cart without rolling resistance, which may roll for ever.)");
 }
 

@@ -85,6 +85,9 @@ def plot_cart_response(
             way.plot(t, place[:, k], color=color, linewidth=1.1, label=name)
         way.set_ylabel("center [m]")
         way.legend(loc="center left", bbox_to_anchor=(1, 0.5), fontsize=8)
+        if response.peak_yaw < 1e-9:  # round-off
+            yaw = 0 * yaw
+            turn.set_ylim(-1, 1)
         turn.plot(t, yaw, color=BLUE, linewidth=1.1)
         turn.set_ylabel("yaw [rad]")
         if not response.peak_outline > 0:
@@ -111,7 +114,7 @@ def _draw_map(plan: Axes, response: CartResponse) -> None:
     shown = [(t[0], INK, 1.2, "start")]
     if response.peak_outline > 0:
         when = response.peak_outline_time
-        peak = f"peak of a corner, {digits(response.peak_outline)} m\nat {digits(when)} s"
+        peak = f"peak of a corner\n{digits(response.peak_outline)} m at {digits(when)} s"
         shown.append((when, VERMILION, 2.4, peak))  # wider, for the end may lie upon it
         shown.append((t[-1], BLUE, 1.2, "end" if response.at_rest else "end, still moving"))
     for time, color, width, label in shown:
@@ -129,12 +132,27 @@ def _draw_map(plan: Axes, response: CartResponse) -> None:
 
 
 def _path(response: CartResponse) -> tuple[NDArray[np.float64], ...]:
-    """Times, displacements and yaw at samples and events, sorted."""
-    events = response.events
-    t = np.concatenate([response.time, events["time"]])
-    order = np.argsort(t, kind="stable")
-    place = np.concatenate([response.displacement, events["displacement"]])
-    return t[order], place[order], np.concatenate([response.yaw, events["yaw"]])[order]
+    """Times, displacements and yaw to draw: eight in each step."""
+    t = response.time
+    fine = np.interp(np.arange(8 * (len(t) - 1) + 1) / 8, np.arange(len(t)), t)
+    return fine, *_at(response, fine)
+
+
+def _at(
+    response: CartResponse, times: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Displacements and yaw at times, by cubics with the velocities at the samples."""
+    t = response.time
+    places = np.column_stack([response.displacement, response.yaw])
+    rates = np.column_stack([response.velocity, response.yaw_rate])
+    i = np.clip(np.searchsorted(t, times, "right") - 1, 0, max(len(t) - 2, 0))
+    k = np.minimum(i + 1, len(t) - 1)
+    step = (t[k] - t[i])[:, None]
+    s = np.divide((times - t[i])[:, None], step, out=np.zeros_like(step), where=step > 0)
+    s = np.clip(s, 0, 1)
+    found = places[i] * (1 + 2 * s) * (1 - s) ** 2 + places[k] * s**2 * (3 - 2 * s)
+    found += step * s * (1 - s) * (rates[i] * (1 - s) - rates[k] * s)
+    return found[:, :2], found[:, 2]
 
 
 def _hull(points: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -168,10 +186,9 @@ def draw_cart(
     On a map angles are clockwise. The trail is drawn no shorter than 5 % of the cart.
     """
     cart = response.cart
-    t, place, yaw = _path(response)
-    center, turn = place_at(times, t, place), np.interp(times, t, yaw)
+    center, turn = _at(response, times)
     corners = _hull(np.concatenate([cart.outline, [one.at for one in cart.supports]]))
-    size = max(float(np.ptp(corners, axis=0).max()), 1e-3)
+    size = max(float(np.ptp(corners, axis=0).max()), cart.radius_of_gyration)
     length, wide = 0.08 * size, 0.025 * size  # of a wheel
 
     def wheel(group: Group, x: float, y: float, heading: float) -> None:
@@ -209,13 +226,6 @@ def draw_cart(
     return groups
 
 
-def place_at(
-    times: NDArray[np.float64], t: NDArray[np.float64], place: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Displacements at times, between those of a path along straight lines."""
-    return np.column_stack([np.interp(times, t, place[:, k]) for k in (0, 1)])
-
-
 def film_of_cart(
     response: CartResponse,
     times: NDArray[np.float64],
@@ -229,7 +239,7 @@ def film_of_cart(
     inside = (t > times[0]) & (t < times[-1])
     when = np.concatenate([t[inside], times])
     order = np.argsort(when, kind="stable")
-    points = np.concatenate([place[inside], place_at(times, t, place)])[order, ::-1]
+    points = np.concatenate([place[inside], _at(response, times)[0]])[order, ::-1]
     plan.plot(*points.T, color=LATER, linewidth=1)
     line = plan.plot([], [], color=BLUE, linewidth=1.4)[0]
     dot = plan.plot([], [], "o", color=VERMILION, markersize=5, zorder=4)[0]
