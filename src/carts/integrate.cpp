@@ -69,7 +69,7 @@ class CartRun {
     if (options_.settle && model_.feet.empty() &&
         std::none_of(model_.lines.begin(), model_.lines.end(), [](const CartModel::Line& line) { return line.along; }))
       throw std::invalid_argument(
-          "integrate: without rolling resistance this cart may roll for ever: give its wheels a rolling_mu, or "
+          "integrate: without rolling resistance this cart may roll without end: give its wheels a rolling_mu, or "
           "integrate it "
           "without settle");
     State state = model_.start();

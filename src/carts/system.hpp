@@ -627,9 +627,12 @@ class CartSystem {
     }
     std::fill(work_.fresh.begin(), work_.fresh.end(), std::uint8_t{0});
     settle_speeds();
-    // As long as the acceleration is small beside friction, a series would take steps of |y|/L.
-    if (!whole || at_rest() || !(lag < 1e-4) || !(norm(last) < 0.05 * least_level()) ||
-        !(norm(last) > 0.5 * norm(rates[0])) || (h < asked / 16 && left() > 0))
+    if (at_rest()) return;
+    // As long as the acceleration is small beside friction, a series would take steps of |y|/L where a foot slides.
+    const bool slides = std::any_of(state_.lines.begin() + static_cast<std::ptrdiff_t>(model_.lines.size()),
+                                    state_.lines.end(), [](int mode) { return mode != 0; });
+    if (!whole || !slides || !(lag < 1e-4) || !(norm(last) < 0.05 * least_level()) ||
+        !(norm(last) > 0.5 * norm(rates[0])) || (h < asked && left() > 0))
       return;  // where a line turns a series goes on
     slaved_ = lag < 1e-5 ? 2 * h : h;
     slaving_ = true;

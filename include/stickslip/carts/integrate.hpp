@@ -23,7 +23,7 @@ struct CartOptions {
 /// Integrate the motion of a cart under a ground motion, with every slip, stick, reversal and rest of its wheels; see Cart
 /// for the equations. Both horizontal components act, and the vertical one on N.
 /// @throws std::invalid_argument  a start that is not finite; a wall without direction; with `settle`, a cart none of whose
-///                                supports resists rolling, which may roll for ever
+///                                supports resists rolling, which may roll without end
 /// @throws ConvergenceError       with `settle`, a cart that does not come to rest; more events than 1,000,000 plus eight
 ///                                per segment
 /// Between events the motion is a power series, and events are roots of polynomials: exact to round-off, which grows while

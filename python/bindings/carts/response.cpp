@@ -352,7 +352,7 @@ of a point, relative to the center of mass at the start [m], and a direction, wh
 `CartResponse`.
 
 Exact to round-off, which grows while casters swivel against their motion; some 30 us per event. ValueError also for a motion
-without a transverse component, and with `settle` for a cart without rolling resistance, which may roll for ever.)");
+without a transverse component, and with `settle` for a cart without rolling resistance, which may roll without end.)");
 }
 
 }  // namespace stickslip::python
