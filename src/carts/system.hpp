@@ -97,7 +97,7 @@ struct CartPassage {
 /// A cart during one segment (a SlidingSystem).
 class CartSystem {
  public:
-  static constexpr int most_steps = 100'000;
+  static constexpr int most_steps = 1'000'000;
   static constexpr double a_little = 1e-6;  // after which a tie is decided [s]
 
   CartSystem(CartWorkspace& work, const CartSegment& ground, CartState& state)
