@@ -426,6 +426,24 @@ def test_the_command_prints_what_the_library_finds(station, capsys, tmp_path):
     assert "must be an object with a list of supports" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("casters", "mean"), [(1, 0.0), (2, 0.40), (4, 0.53), (8, 0.58), (32, 0.62)]
+)
+def test_what_a_parked_cart_holds_at_random_headings(casters, mean):
+    # At one point nothing turns. Of one caster a load along the axis is held only across it; of
+    # many by 2/pi of mu s g. The other means were computed apart, to two digits.
+    rng = np.random.default_rng(casters)
+    supports = [caster((0, 0), 0, level=1.0, rolling_mu=0)] * casters
+    one = ss.Cart(supports, radius_of_gyration=1)
+    draws = [one.holds((1, 0), headings=rng.uniform(0, 2 * math.pi, casters)) for _ in range(2000)]
+    # Five standard errors: a false alarm in 2e6 seeds.
+    assert np.mean(draws) == pytest.approx(mean, abs=0.005 + 5 * np.std(draws) / 2000**0.5)
+    assert np.mean(draws) < 2 / math.pi
+    if casters == 4:
+        low, middle, high = np.quantile(draws, [0.05, 0.5, 0.95])
+        assert (low, middle, high) == pytest.approx((0.27, 0.53, 0.76), abs=0.03)
+
+
 def entries():
     """Numbers computed apart from this library, of tests/data and of a file that is named."""
     found = json.loads((ROOT / "tests" / "data" / "carts.json").read_text())["carts"]["rows"]
