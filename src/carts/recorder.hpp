@@ -9,8 +9,8 @@
 
 #include "carts/leg.hpp"
 #include "carts/model.hpp"
-#include "carts/roots.hpp"
 #include "carts/system.hpp"
+#include "numerics/each_root.hpp"
 #include "stickslip/carts/integrate.hpp"
 #include "stickslip/carts/response.hpp"
 #include "stickslip/run/detail/event_log.hpp"

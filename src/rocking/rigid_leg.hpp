@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "numerics/each_root.hpp"
 #include "rocking/leg.hpp"
 #include "stickslip/base/equal.hpp"
 #include "stickslip/error.hpp"
@@ -212,24 +213,12 @@ class RigidLeg {
   template <class Use>
   void for_each_turn(double until, Use&& use) const {
     if (!turns_ || mode_ == RockingMode::flight || !(duration_ > 0)) return;
-    double w[series::highest_order + 1], from = 0;
-    int degree = order_;
-    for (int k = 0; k <= degree; ++k) w[k] = (k + 1) * theta_[k + 1];
-    for (int turns = 0; turns < 8; ++turns) {
-      int leading = 0;
-      while (leading <= degree && equal(w[leading], 0)) ++leading;
-      if (leading >= degree) return;
-      if (w[leading] < 0)
-        for (int k = leading; k <= degree; ++k) w[k] = -w[k];
-      const double part = FirstRoot(w + leading, degree - leading).find();
-      const double t = (from + part) * duration_;
-      if (!(t < until)) return;
-      use(at(t).rotation, t);
-      for (int i = 0; i < degree; ++i)
-        for (int k = degree - 1; k >= i; --k) w[k] += part * w[k + 1];
-      w[0] = 0;
-      from += part;
-    }
+    double w[series::highest_order + 1];
+    for (int k = 0; k <= order_; ++k) w[k] = (k + 1) * theta_[k + 1];
+    for_each_root(w, order_, [&](double part) {
+      const double t = part * duration_;
+      if (t < until) use(at(t).rotation, t);
+    });
   }
   /// The largest |theta| cannot exceed this [rad].
   double bound() const noexcept {
