@@ -12,11 +12,11 @@ namespace stickslip {
 
 /// A rigid cart that moves in the plane and turns, under two components of ground acceleration and a vertical one. With
 /// y = (x', y', k phi') and the arm b of each support from the center of mass,
-///     y' = (-a_x, -a_y, 0) - sum over lines of (L N/g) sgn(sigma) r,   N = max(g + a_z, 0),
+///     y' = (-a_x, -a_y, 0) - sum over lines (L N/g) sgn(sigma) r - sum over feet (L N/g) J^T V/|V|,   N = max(g + a_z, 0),
 /// where each wheel has a line across it and, if it resists rolling, one along it: d its direction, r = (d, (b x d)/k),
 /// sigma = r.y the speed along d, and L = share g times its coefficient of friction. Friction is monotone, so that the motion
-/// is determined; the forces of single supports that stick together are not. At rest the load must lie in the zonotope of all
-/// L r. Angles are positive from the axis toward the transverse direction.
+/// is determined; the forces of single supports that stick together are not. At rest the load must lie in the sum of all
+/// segments L r and discs L J^T. Angles are positive from the axis toward the transverse direction.
 ///
 /// Left out: the friction of a swivel; the shift of the loads as wheels swivel (trail over wheel base) and by overturning
 /// moments; yaw of the ground; springs, stops and walls in the motion.

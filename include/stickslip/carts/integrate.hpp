@@ -26,9 +26,9 @@ struct CartOptions {
 ///                                supports resists rolling, which may roll without end
 /// @throws ConvergenceError       with `settle`, a cart that does not come to rest; more events than 1,000,000 plus eight
 ///                                per segment
-/// Between events the motion is a power series, and events are roots of polynomials: exact to round-off, which grows while
-/// casters swivel against their motion. A response under other ground, or with another mass, is another path: answer in
-/// distributions over the headings.
+/// Between events the motion is a power series, and events are roots of polynomials: exact to round-off on wheels, which grows
+/// while casters swivel against their motion; to 1e-9 on feet, whose starts are slaved to their force. What feet hold is found
+/// to 1e-5. Answer in distributions over the headings. Cost: 25 us an event on casters, ten times that on feet.
 CartResponse integrate(const Cart& cart, const GroundMotion& motion, const CartOptions& options = {});
 
 /// Ground acceleration over a segment, linear from start to end.
