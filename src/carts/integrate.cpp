@@ -171,6 +171,24 @@ CartResponse integrate(const Cart& cart, const GroundMotion& motion, const CartO
   return detail::integrate_run(detail::CartRun(model, work, motion, options), {});
 }
 
+double condition(const Cart& cart, const GroundMotion& motion, const CartOptions& options) {
+  constexpr double change = 1e-9;  // [rad]
+  const CartResponse first = integrate(cart, motion, options);
+  std::vector<double> headings = detail::CartModel(cart).headings;
+  for (double& heading : headings) heading += change;
+  CartOptions other = options;
+  if (headings.empty()) other.yaw += change;
+  const CartResponse then = integrate(cart.with_headings(headings), motion, other);
+  double most = 0;
+  const std::size_t samples = std::min(first.displacement.size(), then.displacement.size());
+  for (std::size_t i = 0; i < samples; ++i) {
+    const double turns = (then.yaw[i] - other.yaw) - (first.yaw[i] - options.yaw);
+    most = std::max(
+        {most, norm(then.displacement[i] - first.displacement[i]), cart.radius_of_gyration() * std::abs(turns)});
+  }
+  return most / change;
+}
+
 void advance(const Cart& cart, const CartGround& segment, CartState& state) {
   const detail::CartModel model(cart);
   for (const double value :

@@ -229,24 +229,49 @@ TEST_CASE("Two fixed wheels behind the center make Chaplygin's sleigh", "[carts]
   }
 }
 
-TEST_CASE("Feet on a ring stop with equal speeds of sliding and turning", "[carts]") {
-  // k = R: the last ratio v/(omega R) is 1 (a known result); four feet are as a ring only in the limit of many.
-  const double radius = 0.5;
+TEST_CASE("Feet on a ring and on a disc stop at the known ratios of sliding and turning", "[carts]") {
+  // v/(omega R) at the end: 1 on a ring with k = R, 0.6530 on a uniform disc; many feet stand for them.
+  const bool disc = GENERATE(false, true);
+  const double radius = 0.5, golden = pi * (3 - std::sqrt(5.0));
+  const int count = disc ? 40 : 24;
   std::vector<Support> supports;
-  constexpr int count = 24;
+  double square = 0;
   for (int i = 0; i < count; ++i) {
-    const double at = 2 * pi * i / count;
-    supports.push_back(Foot{{radius * std::cos(at), radius * std::sin(at)}, 0.3, {}});
+    const double at = disc ? golden * i : 2 * pi * i / count;
+    const double far = disc ? radius * std::sqrt((i + 0.5) / count) : radius;
+    square += far * far / count;
+    supports.push_back(Foot{{far * std::cos(at), far * std::sin(at)}, 0.3, 1.0 / count});
   }
-  const Cart ring(std::move(supports), radius);
+  const Cart body(std::move(supports), std::sqrt(square));
   CartState state;
   state.velocity = {0.9, 0.1};
   state.yaw_rate = 0.7;
-  // Approach the end from both sides: the ratio just before the stop, found from the time of the stop.
-  const CartResponse r = integrate(ring, still(11), pushed(state.velocity, state.yaw_rate));
+  const CartResponse r = integrate(body, still(11), pushed(state.velocity, state.yaw_rate));
   const double stop = r.events[r.events.size() - 2].time;
-  advance(ring, {stop - 1e-7, {}, {}}, state);
-  CHECK(std::abs(norm(state.velocity) / (std::abs(state.yaw_rate) * radius) - 1) <= 2e-3);
+  advance(body, {stop - 1e-7, {}, {}}, state);
+  // Forty feet are a disc to 5 %.
+  CHECK(std::abs(norm(state.velocity) / (std::abs(state.yaw_rate) * radius) - (disc ? 0.6530 : 1)) <=
+        (disc ? 0.05 : 2e-3));
+  // The body stops in the direction in which friction takes least, of y = (v, k omega) with |y| = 1.
+  const double k = body.radius_of_gyration(), c = std::cos(state.yaw), s = std::sin(state.yaw);
+  const auto dissipation = [&](detail::Vector3 y) {
+    y = detail::scaled(1 / detail::norm(y), y);
+    double sum = 0;
+    for (const Support& one : body.supports()) {
+      const Vector2 at = std::get<Foot>(one).at - body.center();
+      const Vector2 arm{c * at.axis - s * at.transverse, s * at.axis + c * at.transverse};
+      sum += std::hypot(y[0] - y[2] / k * arm.transverse, y[1] + y[2] / k * arm.axis) / count;
+    }
+    return sum;
+  };
+  const detail::Vector3 last{state.velocity.axis, state.velocity.transverse, k * state.yaw_rate};
+  const double size = detail::norm(last);
+  for (const double step : {0.02, -0.02})
+    for (const std::size_t i : {0U, 1U, 2U}) {
+      detail::Vector3 other = last;
+      other[i] += step * size;
+      CHECK(dissipation(other) > dissipation(last) - 1e-5);
+    }
 }
 
 TEST_CASE("Energy, rotation, mirror images, scale and splitting hold for random carts", "[carts]") {
@@ -358,6 +383,22 @@ TEST_CASE("Peaks, reach and clearance are those of a fine sampling", "[carts]") 
   CHECK(std::abs(r.clearances[0].hit_time - first) <= 0.1 / parts);
   CHECK(r.clearances[0].hit_speed > 0);
   CHECK(std::isnan(r.clearances[2].hit_time));
+}
+
+TEST_CASE("An error of the headings grows as a perturbed motion shows", "[carts]") {
+  // Straight ahead a trailing wheel forgets its error as exp(-s/r): of the way across r (1 - exp(-s/r)) remains at most.
+  const Cart trailing({SwivelCaster{{0, 0}, 0, 0, reach, 0, {}}}, 0.25);
+  CHECK(condition(trailing, still(11), pushed({1, 0}, 0, false)) == 0);  // without friction its wheel moves nothing
+  // Wheels across the motion: with cos(psi) of the friction along the line a heading off by d changes the level by d^2/2
+  // alone, but pushes the cart sideways by the level times d: at most a d t^2/2 after a time.
+  const Cart across = four_casters({pi / 2, -pi / 2, pi / 2, -pi / 2}, 0);
+  const double found = condition(across, still(11), pushed({0.2, 0}, 0, false));
+  CHECK(found > 0);
+  CHECK(found < side * g * 0.5);
+  // A cart that rests does not feel its headings.
+  CHECK(condition(four_casters({0.3, 2.0, -2.5, -0.7}, 0.01), still(11)) == 0);
+  CHECK(condition(four_feet({0.1, 0.1, 0.1, 0.1}), still(11)) == 0);
+  CHECK(condition(four_casters({0.3, 2.0, -2.5, -0.7}, 0.01), shaking(0.7, 101)) > 0.01);
 }
 
 TEST_CASE("What a parked cart holds is where it leaves", "[carts]") {

@@ -426,6 +426,16 @@ def test_the_command_prints_what_the_library_finds(station, capsys, tmp_path):
     assert "must be an object with a list of supports" in capsys.readouterr().err
 
 
+def test_the_condition_is_the_growth_of_an_error_of_the_headings():
+    off = np.array(RANDOM) + 1e-9
+    other = ss.integrate(cart(off, outline=CORNERS), QUAKE, settle=True)
+    n = min(len(PLAIN.time), len(other.time))
+    moved = np.hypot(*(other.displacement[:n] - PLAIN.displacement[:n]).T).max()
+    turned = 0.25 * abs(other.yaw[:n] - PLAIN.yaw[:n]).max()
+    assert PLAIN.condition == pytest.approx(max(moved, turned) / 1e-9, rel=1e-9)
+    assert PLAIN.condition > 0
+
+
 @pytest.mark.parametrize(
     ("casters", "mean"), [(1, 0.0), (2, 0.40), (4, 0.53), (8, 0.58), (32, 0.62)]
 )

@@ -255,6 +255,17 @@ it is tiny, the history hangs on round-off. Histories are sensitive anyhow while
 in distributions over the headings, see `Cart.with_random_headings`.)")
       .def_property_readonly("clearances", number<&CartResponse::clearances>(),
                              "The `Clearance` of each of the walls that `integrate` was given.")
+      .def_property_readonly(
+          "condition",
+          [](const Self& r) {
+            const Cart& cart = its_cart(r).cart();
+            const GroundMotion& ground = motion_of(r);
+            const py::gil_scoped_release released;
+            return condition(cart, ground, {r.yaw, r.velocity, r.yaw_rate, r.settle, {}, check_for_interrupt});
+          },
+          "How far an error grows: the largest change of `displacement` at a sample, or of the yaw times the radius\n"
+          "of gyration, per change of the headings of all casters at the start (without casters, of the yaw) [m/rad].\n"
+          "Computed when it is asked for, from two motions whose headings differ by 1e-9 rad.")
       .def(
           "clearance",
           [](const Self& r, const py::object& wall) {
