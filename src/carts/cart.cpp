@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -175,15 +174,12 @@ double Cart::holds(Vector2 direction, std::span<const double> headings) const {
 
 namespace detail {
 
-CartModel::CartModel(const Cart& cart)
-    : casters(cart.casters()),
-      gyration(cart.radius_of_gyration()),
-      shortest_reach(std::numeric_limits<double>::infinity()) {
+CartModel::CartModel(const Cart& cart) : casters(cart.casters()), gyration(cart.radius_of_gyration()) {
   std::size_t caster = 0;
   for (std::size_t i = 0; i < cart.supports().size(); ++i) {
     const double share = cart.shares()[i];
     const Vector2 arm = place_of(cart.supports()[i]) - cart.center();
-    Wheel wheel{arm, arm.axis / gyration, arm.transverse / gyration, none, 0, 1, 0, none, none};
+    Wheel wheel{arm.axis / gyration, arm.transverse / gyration, none, 0, 1, 0, none, none};
     const auto line = [&](bool along, double coefficient) {
       if (!(share * coefficient > 0)) return none;
       lines.push_back({i, along, share * coefficient});
@@ -192,7 +188,6 @@ CartModel::CartModel(const Cart& cart)
     if (const auto* swivel = std::get_if<SwivelCaster>(&cart.supports()[i])) {
       wheel.caster = caster++;
       wheel.per_reach = 1 / swivel->reach;
-      shortest_reach = std::min(shortest_reach, swivel->reach);
       headings.push_back(swivel->heading);
       wheel.across = line(false, swivel->side_mu);
       wheel.along = line(true, swivel->rolling_mu);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "carts/acceleration.hpp"
@@ -41,11 +40,10 @@ class CartLeg {
       : model_(model), rolls_(model.wheels.size()), slides_(model.feet.size()), fresh_(model.contacts()) {}
 
   /// @param fresh  of each line, how many of the first derivatives of its slip vanish at the start because it begins there
-  void begin(const CartState& state, const CartSegment& ground, double begin, double longest,
-             const std::vector<std::uint8_t>& fresh) {
+  void begin(const CartState& state, const CartSegment& ground, double begin, const std::vector<std::uint8_t>& fresh) {
     state_ = &state;
     fresh_ = fresh;
-    duration_ = std::min(ground.duration - begin, longest);
+    duration_ = ground.duration - begin;
     const Vector2 a0 = ground.ground(begin);
     load_ = -1 * a0;
     load_rate_ = {};
@@ -59,7 +57,6 @@ class CartLeg {
       if (turn > begin && turn < ground.duration) duration_ = std::min(duration_, turn - begin);
       const bool falls = ground.heavy(begin + duration_ / 2) < 0;
       if (falls) heavy_ = heavy_rate_ = 0;
-      heavy_ = std::max(heavy_, 0.0);
     }
     heavy_ = std::max(heavy_, 0.0);
     y0_ = model_.velocities(state);
@@ -74,7 +71,6 @@ class CartLeg {
   }
 
   double duration() const noexcept { return duration_; }
-  bool holds_foot() const noexcept { return stuck_foot_ != none; }
   const Zonotope& stuck() const noexcept { return stuck_; }
   std::size_t stuck_line(std::size_t j) const noexcept { return stuck_lines_[j]; }
   /// The largest distance of the forces that stick beyond what they can carry, at the start, over what they can carry.
@@ -196,22 +192,20 @@ class CartLeg {
     const double s = duration_ > 0 ? t / duration_ : 0;
     const bool foot = l >= model_.lines.size();
     const Coefficients& sigma = foot ? slides_[l - model_.lines.size()].speed : speed(l);
-    const double coefficient = foot ? model_.feet[l - model_.lines.size()].coefficient : model_.lines[l].coefficient;
     double way = 0, moment = 0;
     for (int k = order_; k >= 0; --k) {
       way = way * s + sigma[static_cast<std::size_t>(k)] * series::reciprocal[k + 1];
       moment = moment * s +
                sigma[static_cast<std::size_t>(k)] * series::reciprocal[std::min(k + 2, series::highest_order + 1)];
     }
-    return sign * coefficient * (heavy_ * t * way + heavy_rate_ * t * t * moment);
+    return sign * model_.coefficient(l) * (heavy_ * t * way + heavy_rate_ * t * t * moment);
   }
 
-  static double value(const Coefficients& c, int order, double s) noexcept {
+  double value(const Coefficients& c, double s) const noexcept {
     double sum = 0;
-    for (int k = order; k >= 0; --k) sum = sum * s + c[static_cast<std::size_t>(k)];
+    for (int k = order_; k >= 0; --k) sum = sum * s + c[static_cast<std::size_t>(k)];
     return sum;
   }
-  double value(const Coefficients& c, double s) const noexcept { return value(c, order_, s); }
 
  private:
   static constexpr int highest = 24;
@@ -225,7 +219,7 @@ class CartLeg {
   }
 
   struct Slide {
-    Coefficients square, speed, inverse, x, y;  // of a foot: |V|^2, |V|, 1/|V|, V/|V|
+    Coefficients speed, inverse, x, y;  // of a foot: |V|, 1/|V|, V/|V|
   };
   struct Roll {
     Coefficients heading, turning, cosine, sine;  // relative to the cart; `turning` is its rate
@@ -243,12 +237,14 @@ class CartLeg {
     Vector3 f{};
     for (std::size_t i = 0; i < 2; ++i) f[i] = value(margins_[i], s);
     const double weight = heavy_ + heavy_rate_ * duration_ * s;
+    const double most = model_.feet[stuck_foot_].coefficient * weight;
+    if (stuck_.size() == 0) return norm(f) / most;
     // The nearest point of the zonogon of the lines.
     AccelerationProblem& problem = beside_;
     problem.clear();
     for (std::size_t j = 0; j < stuck_.size(); ++j) problem.add(stuck_.row(j), 0, weight * stuck_.level(j));
     problem.solve(f);
-    return norm(problem.acceleration()) / (model_.feet[stuck_foot_].coefficient * weight);
+    return norm(problem.acceleration()) / most;
   }
   double foot_slips() const {
     constexpr int parts = 16;
@@ -442,7 +438,6 @@ class CartLeg {
         const Roll& roll = rolls_[foot.wheel];
         Slide& slide = slides_[f];
         const double square = convolve(roll.pivot_x, roll.pivot_x, 0, k) + convolve(roll.pivot_y, roll.pivot_y, 0, k);
-        slide.square[at] = square;
         if (k == 0) {
           slide.speed[0] = std::sqrt(square);
           slide.inverse[0] = 1 / slide.speed[0];

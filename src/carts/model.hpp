@@ -19,8 +19,7 @@ struct CartModel {
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   struct Wheel {
-    Vector2 arm;                // from the center of mass [m]
-    double lever_x, lever_y;    // the same over k
+    double lever_x, lever_y;    // from the center of mass, over k
     std::size_t caster;         // its number, or none
     double per_reach;           // [1/m]
     double cosine, sine;        // of a fixed wheel
@@ -44,14 +43,17 @@ struct CartModel {
   std::vector<Foot> feet;        // their modes follow those of the lines: 1 slides, 0 sticks
   std::vector<Vector2> outline;  // from the center of mass [m]
   std::size_t contacts() const noexcept { return lines.size() + feet.size(); }
+  /// Of a line or, after them, of a foot.
+  double coefficient(std::size_t contact) const noexcept {
+    return contact < lines.size() ? lines[contact].coefficient : feet[contact - lines.size()].coefficient;
+  }
 
   std::vector<double> headings;  // at the start, relative to the cart [rad]
   std::size_t casters;
-  double gyration;        // k [m]
-  double slow;            // a speed that is round-off [m/s]
-  double halted;          // a speed from which a cart on feet stops at once: it would go 1e-20 m [m/s]
-  double steady;          // speeds below are tried where events follow each other without time [m/s]
-  double shortest_reach;  // [m]; infinite without casters
+  double gyration;  // k [m]
+  double slow;      // a speed that is round-off [m/s]
+  double halted;    // a speed from which a cart on feet stops at once: it would go 1e-20 m [m/s]
+  double steady;    // speeds below are tried where events follow each other without time [m/s]
 
   CartState start() const {
     CartState state;

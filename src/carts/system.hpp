@@ -215,7 +215,7 @@ class CartSystem {
     CartLeg& leg = work_.leg;
     if (const auto now = at_once(); now != CartSlide::Now::leg) return {&leg, {}, now};
     for (int tries = 0;; ++tries) {
-      leg.begin(state_, ground_, now_, never, work_.fresh);
+      leg.begin(state_, ground_, now_, work_.fresh);
       // Forces can jump where a segment begins.
       if (tries > 0 || !(leg.excess() > 1e-9)) break;
       decide_all();
@@ -593,11 +593,8 @@ class CartSystem {
         const Vector3 load = load_at(stage, now_ + nodes[i] * h);
         const double heavy = weight_at(now_ + nodes[i] * h);
         input += h * weights[i] * dot(load, speeds[i]);
-        for (std::size_t l = 0; l < contacts; ++l) {
-          const double level =
-              l < model_.lines.size() ? model_.lines[l].coefficient : model_.feet[l - model_.lines.size()].coefficient;
-          work_.work[l] += h * weights[i] * level * heavy * std::abs(speed_of(stage, speeds[i], l));
-        }
+        for (std::size_t l = 0; l < contacts; ++l)
+          work_.work[l] += h * weights[i] * model_.coefficient(l) * heavy * std::abs(speed_of(stage, speeds[i], l));
       }
       // What is lost beside friction is the error of the step.
       double lost = input - (dot(y, y) - speed0 * speed0) / 2;
