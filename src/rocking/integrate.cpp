@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -53,7 +54,7 @@ class NoRockingSink final : public RockingSink {
 // Moves a state through a segment. A block that lies on its side stays there.
 void move(const SlenderBlock& block, const RockingSegment& ground, RockingState& state, RockingSink& sink) {
   if (!(ground.duration > 0) || lies(state)) return;
-  RockingSystem system(block, ground, state);
+  RockingSystem system(block, ground, state, sink.sums());
   stickslip::detail::advance(system, sink);
   if (!lies(state)) return;
   const double before = kinetic_energy(state) + elastic_energy(block, state);
@@ -65,15 +66,15 @@ void move(const SlenderBlock& block, const RockingSegment& ground, RockingState&
 
 class RockingRecorder final : public RockingSink, public EventLog<double>, public Pace<4096> {
  public:
-  RockingRecorder(const SlenderBlock& block, const Overturning* overturning, double begin, const RockingState& state,
-                  std::size_t event_limit, const std::function<void()>& progress, RockingResponse& response)
-      : EventLog(event_limit, {}),
+  RockingRecorder(const SlenderBlock& block, const GroundMotion& motion, const RockingState& state,
+                  const std::function<void()>& progress, RockingResponse& response)
+      : EventLog(max_events(motion.segments()), {}),
         Pace(progress),
         block_(block),
-        overturning_(overturning),
+        motion_(motion),
         response_(response),
         count_from_(1e-3 * block.p() * block.alpha()) {
-    reach(state.rotation, begin);
+    reach(state.rotation, motion.time(0));
   }
 
   // The segment of the ground motion, and its number.
@@ -90,14 +91,14 @@ class RockingRecorder final : public RockingSink, public EventLog<double>, publi
     reach(end.rotation, when(begin + duration));
     leg.for_each_turn(duration, end, [&](const RockingLeg::Place& at, double t) {
       reach(at.rotation, when(begin + t));
-      if (overturning_ == nullptr || !number_ || !(s * at.rotation > 0.5 * block_.alpha())) return;
+      if (motion_.has_vertical() || !number_ || !(s * at.rotation > 0.5 * block_.alpha())) return;
       const Segment motion{ground_.duration, ground_.n_start, ground_.n_end};
       const double left = std::max(ground_.duration - begin - t, 0.0);
-      response_.margin = std::min(response_.margin, overturning_->distance(*number_, motion, left, at, s));
+      response_.margin = std::min(response_.margin, overturning().distance(*number_, motion, left, at, s));
     });
     response_.energy.input += leg.input(end, duration);
     response_.time_rocking += duration;
-    const RockingLeg varied(block_, ground_, begin, variation_, 0);
+    const RockingLeg varied(block_, ground_, begin, variation_, 0, sums());
     variation_ = varied.at(duration);
     arrives_ = leg.acceleration(end.rotation, duration);
   }
@@ -118,6 +119,10 @@ class RockingRecorder final : public RockingSink, public EventLog<double>, publi
   void decide(double margin) { response_.margin = std::min(response_.margin, margin); }
 
   bool has_overturned() const noexcept { return response_.overturned != 0; }
+  // Whether the block never comes back, at a sample.
+  bool certain(std::size_t sample, const RockingState& state) {
+    return !motion_.has_vertical() && !is_stuck(state) && overturning().certain(sample, state);
+  }
   void overturned(double time, const RockingState& state) {
     response_.overturned = state.overturned;
     response_.overturned_at = time;
@@ -141,6 +146,11 @@ class RockingRecorder final : public RockingSink, public EventLog<double>, publi
   }
 
  private:
+  // Made for the first rocking: many blocks never leave their rest.
+  const Overturning& overturning() {
+    if (!overturning_) overturning_.emplace(block_, motion_);
+    return *overturning_;
+  }
   void reach(double rotation, double time) { detail::reach(response_, block_, rotation, time); }
   void vary_by_impact(double time, const RockingState& state) {
     const double r = block_.restitution();
@@ -151,7 +161,8 @@ class RockingRecorder final : public RockingSink, public EventLog<double>, publi
   }
 
   const SlenderBlock& block_;
-  const Overturning* overturning_;  // null under vertical motion
+  const GroundMotion& motion_;
+  std::optional<Overturning> overturning_{};
   RockingResponse& response_;
   double count_from_;
   RockingSegment ground_{};
@@ -169,11 +180,7 @@ class RockingRun {
 
   RockingRun(const SlenderBlock& block, const GroundMotion& motion, const RockingOptions& options)
       : block_(block), motion_(motion), options_(options) {
-    if (!motion.has_vertical()) {
-      overturning_.emplace(block, motion);
-      return;
-    }
-    for (std::size_t i = 0; i < motion.samples(); ++i)
+    for (std::size_t i = 0; i < motion.vertical().size(); ++i)
       require(standard_gravity + motion.vertical()[i] > 0,
               "integrate: under this vertical motion the block leaves the ground, which a SlenderBlock cannot: "
               "g + a_z must be positive; is the vertical acceleration in m/s^2?",
@@ -186,31 +193,19 @@ class RockingRun {
   State start() const { return start_of(options_); }
 
   Recorder recorder(const State& state, Response& response) const {
-    response.rotation.resize(motion_.samples());
-    response.rate.resize(motion_.samples());
+    response.rotation.assign(motion_.samples(), 0);
+    response.rate.assign(motion_.samples(), 0);
     keep(0, state, response);
     if (motion_.has_vertical()) response.components = "axis + vertical";
-    return {block_,  overturning_ ? &*overturning_ : nullptr, motion_.time(0),
-            state,   max_events(motion_.segments()),          options_.progress,
-            response};
+    return {block_, motion_, state, options_.progress, response};
   }
 
   void walk(State& state, Recorder& recorder, Response& response) const {
     const std::size_t count = motion_.segments();
-    LoadMaxima maxima;
     for (std::size_t i = 0; i < count; ++i) {
+      if (is_stuck(state)) i = rest(i, recorder);
+      if (i == count) break;
       const RockingSegment ground = segment_of(motion_, i);
-      if (is_stuck(state)) {
-        const UpliftMargins first(block_, ground.n_start, ground.heavy_start),
-            last(block_, ground.n_end, ground.heavy_end);
-        if (std::max(std::max(first.right, first.left), std::max(last.right, last.left)) <= 0) {
-          for (const double now : {load(ground.n_start, ground.heavy_start), load(ground.n_end, ground.heavy_end)})
-            maxima.look(now, [&](double margin) { recorder.decide(margin); });
-          keep(i + 1, state, response);
-          continue;
-        }
-      }
-      maxima.forget();
       recorder.begin_segment(motion_.time(i), motion_.time(i + 1), ground, i);
       move(block_, ground, state, recorder);
       judge(i + 1, state, recorder);
@@ -259,14 +254,30 @@ class RockingRun {
   void finish(const State& state, Response& response) const { response.state = state; }
 
  private:
-  // Over the levels of uplift.
-  double load(double n, double heavy) const {
-    return std::max(-n / (block_.alpha_right() * heavy), n / (block_.alpha_left() * heavy));
+  // The first segment from one on in which a resting block is lifted, or the number of segments.
+  std::size_t rest(std::size_t i, Recorder& recorder) const {
+    if (!motion_.has_vertical()) return rest_under(i, recorder, [](std::size_t) { return standard_gravity; });
+    return rest_under(i, recorder, [&](std::size_t sample) { return standard_gravity + motion_.vertical()[sample]; });
+  }
+  template <class Heavy>
+  std::size_t rest_under(std::size_t i, Recorder& recorder, Heavy&& heavy) const {
+    const std::size_t count = motion_.segments(), ahead = motion_.interpolation() == Interpolation::constant ? 0 : 1;
+    const std::span<const double> n = motion_.acceleration();
+    LoadMaxima maxima;
+    const auto stays = [&](std::size_t sample) {
+      const UpliftMargins margins(block_, n[sample], heavy(sample));
+      if (margins.right > 0 || margins.left > 0) return false;
+      const double alpha = n[sample] < 0 ? block_.alpha_right() : block_.alpha_left();
+      maxima.look(std::abs(n[sample]) / (alpha * heavy(sample)), [&](double margin) { recorder.decide(margin); });
+      return true;
+    };
+    if (i < count && stays(i))
+      while (i < count && stays(i + ahead)) ++i;
+    return i;
   }
   void judge(std::size_t sample, State& state, Recorder& recorder) const {
     if (recorder.has_overturned()) return;
-    if (overturning_ && overturning_->certain(sample, state))
-      state.overturned = static_cast<std::int8_t>(sign(state.mode));
+    if (recorder.certain(sample, state)) state.overturned = static_cast<std::int8_t>(sign(state.mode));
     if (state.overturned != 0) recorder.overturned(motion_.time(sample), state);
   }
   void keep(std::size_t sample, const State& state, Response& response) const {
@@ -277,7 +288,6 @@ class RockingRun {
   const SlenderBlock& block_;
   const GroundMotion& motion_;
   const RockingOptions& options_;
-  std::optional<Overturning> overturning_{};
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "stickslip/base/equal.hpp"
 #include "stickslip/flow/closed_form.hpp"
@@ -40,22 +41,51 @@ inline double alpha_of(const SlenderBlock& block, RockingMode mode) noexcept {
 
 /// sinh(Pt)/P, (cosh(Pt) - 1)/P^2 and t - sinh(Pt)/P, without cancellation.
 struct HyperbolicSums {
+  constexpr HyperbolicSums() noexcept : first(0), second(0), third(0), cosh(1) {}
   HyperbolicSums(double p, double t) noexcept {
-    const double x = p * t, half = std::sinh(x / 2);
-    first = std::sinh(x) / p;
-    second = 2 * half * half / (p * p);
-    cosh = 1 + 2 * half * half;
+    const double x = p * t;
+    double half;  // sinh(x/2)
     if (x < 1) {
       const double square = x * x;
-      double sum = 0;
-      for (int k = 19; k >= 5; k -= 2) sum = (sum + 1) * square / (k * (k - 1));
-      third = -t * (square / 6) * (1 + sum);
+      third = -t * square * excess<19>(square);
+      first = t - third;
+      half = x / 2 * (1 + square / 4 * excess<17>(square / 4));
     } else {
+      first = std::sinh(x) / p;
       third = t - first;
+      half = std::sinh(x / 2);
     }
+    second = 2 * half * half / (p * p);
+    cosh = 1 + 2 * half * half;
   }
 
   double first, second, third, cosh;
+
+ private:
+  // (sinh(x)/x - 1)/x^2 = 1/3! + x^2/5! + ... + x^(last - 3)/last!
+  template <int last>
+  static double excess(double square) noexcept {
+    double sum = 1;
+    for (int k = last; k > 3; k -= 2) sum = 1 + sum * (square * (1.0 / (k * (k - 1))));
+    return sum / 6;
+  }
+};
+
+/// The sums at the time last asked for: a record has one time step, and of a leg several things are asked at its end.
+class LastSums {
+ public:
+  const HyperbolicSums& operator()(double p, double t) noexcept {
+    if (!equal(t, t_) || !equal(p, p_)) {
+      sums_ = {p, t};
+      p_ = p;
+      t_ = t;
+    }
+    return sums_;
+  }
+
+ private:
+  double p_ = 0, t_ = 0;
+  HyperbolicSums sums_{};
 };
 
 /// The motion about a corner from a start, theta(0) = theta0 and theta'(0) = w0. Under a constant G
@@ -70,14 +100,17 @@ class RockingLeg {
 
   /// @param begin  since the beginning of the segment [s]
   /// @param tilt   s alpha; 0 for the variation of a motion with the scale of the ground motion
-  RockingLeg(const SlenderBlock& block, const RockingSegment& ground, double begin, const Place& start, double tilt)
-      : RockingLeg(block, ground, begin, start, tilt,
+  /// @param sums   those of the legs of one run; must outlive the leg
+  RockingLeg(const SlenderBlock& block, const RockingSegment& ground, double begin, const Place& start, double tilt,
+             LastSums& sums)
+      : RockingLeg(block, ground, begin, start, tilt, sums,
                    block.p() * block.p() / standard_gravity *
                        (ground.heavy(begin) * (start.rotation - tilt) - ground.n(begin))) {}
   /// @param acceleration  theta'' at the start, known
   RockingLeg(const SlenderBlock& block, const RockingSegment& ground, double begin, const Place& start, double tilt,
-             double acceleration)
-      : start_(start),
+             LastSums& sums, double acceleration)
+      : sums_(&sums),
+        start_(start),
         duration_(ground.duration - begin),
         a0_(acceleration),
         square_(block.p() * block.p() / standard_gravity),
@@ -109,7 +142,7 @@ class RockingLeg {
       }
       return {start_.rotation + value, slope / duration_};
     }
-    return at(HyperbolicSums(p_, t));
+    return at((*sums_)(p_, t));
   }
   Place at(const HyperbolicSums& s) const noexcept {
     return {start_.rotation + (start_.rate * s.first + a0_ * s.second + c1_ * s.third),
@@ -147,7 +180,7 @@ class RockingLeg {
     for (const double turn : turning_points()) {
       const double until = turn < duration_ ? turn : duration_;
       const double after = s * (turn < duration_ ? at(until).rotation : end.rotation);
-      if (!(after > 0) && (before > 0 || begin > 0)) return zero(s, begin, before, until, after);
+      if (!(after > 0) && (before > 0 || begin > 0)) return zero(s, begin, before, until);
       if (!(after > 0) && !(before > 0) && !leaves(s)) return 0;
       if (!(turn < duration_)) break;
       begin = until;
@@ -158,21 +191,11 @@ class RockingLeg {
 
   /// Where the rate vanishes within the leg, in order, and then never: at most twice under a constant G.
   std::array<double, 3> turning_points() const noexcept {
+    const std::array<double, 2> times = zeros(start_.rate - 2 * c1_, a0_ / p_, start_.rate);
     std::array<double, 3> turns{never, never, never};
-    // (w0 - 2 c1) tau^2 + (2 a0/P) tau + w0 = 0, tau = tanh(Pt/2)
-    const double a = start_.rate - 2 * c1_, half = a0_ / p_, c = start_.rate;
-    std::array<double, 2> tau{never, never};
-    const double square = half * half - a * c;
-    if (square >= 0) {
-      const double q = -(half + std::copysign(std::sqrt(square), half));
-      if (!equal(a, 0)) tau[0] = q / a;
-      if (!equal(q, 0)) tau[1] = c / q;
-    }
     std::size_t count = 0;
-    std::sort(tau.begin(), tau.end());
-    for (const double one : tau)
-      if (one > 0 && one < 1)
-        if (const double t = 2 * std::atanh(one) / p_; t < duration_) turns[count++] = t;
+    for (const double t : times)
+      if (t < duration_) turns[count++] = t;
     return turns;
   }
   /// Call `use(place, time)` where the rate vanishes.
@@ -226,12 +249,37 @@ class RockingLeg {
     return s * c1_ < 0;  // S3 is negative
   }
 
-  double zero(double s, double a, double fa, double b, double fb) const {
-    if (!(fa > 0)) {  // it begins at zero and leaves: a little later it is above
-      return b;
+  // The times t > 0, in order, at which a tau^2 + 2 b tau + c = 0, tau = tanh(Pt/2); `never` where there is none.
+  std::array<double, 2> zeros(double a, double b, double c) const noexcept {
+    std::array<double, 2> tau{never, never};
+    const double square = b * b - a * c;
+    if (square >= 0) {
+      const double q = -(b + std::copysign(std::sqrt(square), b));
+      if (!equal(a, 0)) tau[0] = q / a;
+      if (!equal(q, 0)) tau[1] = c / q;
     }
-    const auto room = [&](double t) { return s * at(t).rotation; };
-    return numerics::root(room, a, fa, b, fb, 0x1p-1000);
+    for (double& one : tau) one = one > 0 && one < 1 ? 2 * std::atanh(one) / p_ : never;
+    if (tau[1] < tau[0]) std::swap(tau[0], tau[1]);
+    return tau;
+  }
+
+  // Where theta, monotone from a time at which s theta > 0, passes zero: by Newton's method, from where it would without
+  // the change of the load.
+  double zero(double s, double from, double before, double until) const {
+    if (!(before > 0)) return until;  // it begins at zero and leaves: a little later it is above
+    double low = from, high = until, t = until;
+    for (const double near : zeros(2 * a0_ / (p_ * p_) - start_.rotation, start_.rate / p_, start_.rotation))
+      if (near > low && near < high) t = near;
+    for (;;) {
+      const Place place = at(HyperbolicSums(p_, t));
+      const double room = s * place.rotation, slope = s * place.rate;
+      if (equal(room, 0)) return t;
+      (room > 0 ? low : high) = t;
+      double next = t - room / slope;
+      if (!(next > low && next < high)) next = low + (high - low) / 2;
+      if (std::abs(next - t) <= 0x1p-52 * t || equal(next, low) || equal(next, high)) return next;
+      t = next;
+    }
   }
 
   // theta - theta0 in powers of t / duration, for as long as the series takes.
@@ -257,7 +305,7 @@ class RockingLeg {
       for (int k = order_; k > 0; --k) value = (value + series_[static_cast<std::size_t>(k)] / (k + 1)) * u;
       return value * t;
     }
-    const HyperbolicSums s(p_, t);
+    const HyperbolicSums& s = (*sums_)(p_, t);
     return start_.rate * s.second - a0_ * s.third / (p_ * p_) + c1_ * (t * t / 2 - s.second);
   }
   // Of theta^2/2 - s alpha theta.
@@ -272,6 +320,7 @@ class RockingLeg {
     return sum * t;
   }
 
+  LastSums* sums_;
   Place start_;
   double duration_;     // [s]
   double a0_, c1_ = 0;  // theta'' at the start; p^2 n'/(g P^2)

@@ -93,17 +93,20 @@ inline void finish_peak(RockingResponse& response) {
 /// The maxima at rest of the load over the level at which a block leaves it.
 class LoadMaxima {
  public:
-  /// @param decide  `decide(margin)`, the distance of a maximum from 1
+  /// @param decide  `decide(margin)`, the distance from 1 of a maximum above all before
   template <class Decide>
   void look(double load, Decide&& decide) {
-    if (load < last_ && rise_ > 0) decide(1 - last_);
+    if (last_ > largest_ && load < last_ && rise_ > 0) {
+      largest_ = last_;
+      decide(1 - last_);
+    }
     if (!equal(load, last_)) rise_ = load - last_;
     last_ = load;
   }
   void forget() noexcept { last_ = rise_ = 0; }
 
  private:
-  double last_ = 0, rise_ = 0;
+  double last_ = 0, rise_ = 0, largest_ = 0;
 };
 
 }  // namespace stickslip::detail

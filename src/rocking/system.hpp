@@ -29,9 +29,14 @@ class RockingSink {
   virtual void lose(double /*energy*/) {}
   /// The same in the fall on its side.
   virtual void fall(double /*energy*/) {}
+  /// Of its legs.
+  LastSums& sums() noexcept { return sums_; }
 
  protected:
   ~RockingSink() = default;
+
+ private:
+  LastSums sums_;
 };
 
 /// The moment by which the ground lifts a block off a corner, over that of its weight G: positive uplifts.
@@ -73,8 +78,9 @@ class RockingSystem {
  public:
   static constexpr int most_steps = 1'000'000;
 
-  RockingSystem(const SlenderBlock& block, const RockingSegment& ground, RockingState& state)
-      : block_(block), ground_(ground), state_(state) {}
+  /// @param sums  of its sink
+  RockingSystem(const SlenderBlock& block, const RockingSegment& ground, RockingState& state, LastSums& sums)
+      : block_(block), ground_(ground), state_(state), sums_(sums) {}
 
   double left() const noexcept { return ground_.duration - now_; }
   double elapsed() const noexcept { return now_; }
@@ -170,8 +176,8 @@ class RockingSystem {
   RockingLeg next_leg() const {
     const double s = sign(state_.mode), tilt = s * alpha_of(block_, state_.mode);
     const RockingLeg::Place start{state_.rotation, state_.rate};
-    if (excess_ < 0) return {block_, ground_, now_, start, tilt};
-    return {block_, ground_, now_, start, tilt, s * (block_.p() * block_.p() / standard_gravity) * excess_};
+    if (excess_ < 0) return {block_, ground_, now_, start, tilt, sums_};
+    return {block_, ground_, now_, start, tilt, sums_, s * (block_.p() * block_.p() / standard_gravity) * excess_};
   }
 
   // Whether all further impacts end before anything else happens: T = 2 r v (1/f_a + r/f_b)/(1 - r^2), with the decelerations
@@ -193,6 +199,7 @@ class RockingSystem {
   const SlenderBlock& block_;
   const RockingSegment& ground_;
   RockingState& state_;
+  LastSums& sums_;
   double now_ = 0;      // since the beginning of the segment [s]
   double excess_ = -1;  // with which the next leg starts from rest; negative if it does not
   bool stopped_ = false;
