@@ -1,4 +1,4 @@
-// The C interface. It needs the header-only core and the standard library, no more.
+// The C interface of sliders. It needs the header-only core and the standard library, no more.
 #include "stickslip/stickslip.h"
 
 #include <cmath>
@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "c_status.hpp"
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/coulomb.hpp"
@@ -27,13 +28,15 @@
 #include "stickslip/stops.hpp"
 
 namespace stickslip {
+namespace detail {
 namespace {
 
 constexpr std::size_t longest_message = 512;
 thread_local char last_message[longest_message] = "";
 
-/// Stores the message of the current exception and returns its status.
-int failed() noexcept {
+}  // namespace
+
+int c_failure() noexcept {
   const auto keep = [](const std::exception& error) {
     const std::size_t length = std::min(std::strlen(error.what()), longest_message - 1);
     std::memcpy(last_message, error.what(), length);
@@ -52,23 +55,16 @@ int failed() noexcept {
   }
 }
 
-/// Calls `work` and returns its status.
-template <class Work>
-int guarded(Work&& work) noexcept {
-  try {
-    work();
-    return STICKSLIP_OK;
-  } catch (...) {
-    return failed();
-  }
-}
+}  // namespace detail
+
+namespace {
+
+using detail::c_status_of;
+using detail::require_pointer;
 
 // The rules are checked at each step: their messages are composed only for an error.
 [[noreturn, gnu::noinline]] void refuse_flag(const char* name, int value) {
   detail::refuse(std::string("stickslip_slider: ") + name + " must be 0 or 1", value);
-}
-[[noreturn, gnu::noinline]] void refuse_pointer(const char* name) {
-  throw std::invalid_argument(std::string("stickslip: ") + name + " must not be null");
 }
 [[noreturn, gnu::noinline]] void refuse_gap(const char* name, double value) {
   detail::refuse(std::string("stickslip_slider: ") + name + " must be at least 0", value, "m");
@@ -84,10 +80,6 @@ int guarded(Work&& work) noexcept {
 [[noreturn, gnu::noinline]] void refuse_stuck_mode(Vector2 velocity) {
   throw std::invalid_argument("stickslip_planar_state: mode must be 1 or 2 with a velocity of " +
                               detail::description(velocity) + " m/s, got 0");
-}
-
-void require_pointer(const void* pointer, const char* name) {
-  if (pointer == nullptr) refuse_pointer(name);
 }
 
 bool flag(int value, const char* name) {
@@ -253,7 +245,7 @@ namespace {
 /// Steps a model.
 template <class AnySegment, class AnyState>
 int step(const stickslip_model* model, const AnySegment* segment, AnyState* state) noexcept {
-  return guarded([&] {
+  return c_status_of([&] {
     require_pointer(model, "model");
     if (const auto* slider = std::get_if<Slider<Coulomb>>(&model->slider))
       step(*slider, model->contact, segment, state);
@@ -265,7 +257,7 @@ int step(const stickslip_model* model, const AnySegment* segment, AnyState* stat
 /// Steps a slider.
 template <class AnySegment, class AnyState>
 int step(const stickslip_slider* slider, const AnySegment* segment, AnyState* state) noexcept {
-  return guarded([&] {
+  return c_status_of([&] {
     with_slider(slider, [&](const auto& checked, Contact contact) { step(checked, contact, segment, state); });
   });
 }
@@ -277,7 +269,7 @@ extern "C" {
 
 int stickslip_create(const stickslip_slider* slider, stickslip_model** model) {
   using namespace stickslip;
-  return guarded([&] {
+  return c_status_of([&] {
     require_pointer(model, "model");
     *model = nullptr;
     *model = with_slider(slider, [](const auto& checked, Contact contact) {
@@ -309,7 +301,7 @@ int stickslip_advance_planar(const stickslip_slider* slider, const stickslip_pla
 int stickslip_advance_pendulum(const stickslip_pendulum* pendulum, const stickslip_segment* segment,
                                stickslip_pendulum_state* state, double* displacements) {
   using namespace stickslip;
-  return guarded([&] {
+  return c_status_of([&] {
     require_pointer(pendulum, "pendulum");
     require_pointer(state, "state");
     const Slider slider(pendulum_of(*pendulum), Mounting{.damping = pendulum->damping});
@@ -324,9 +316,10 @@ int stickslip_advance_pendulum(const stickslip_pendulum* pendulum, const sticksl
 }
 
 int stickslip_check(const stickslip_slider* slider) {
-  return stickslip::guarded([&] { stickslip::with_slider(slider, [](const auto&, stickslip::Contact) {}); });
+  return stickslip::detail::c_status_of(
+      [&] { stickslip::with_slider(slider, [](const auto&, stickslip::Contact) {}); });
 }
 
-const char* stickslip_message(void) { return stickslip::last_message; }
+const char* stickslip_message(void) { return stickslip::detail::last_message; }
 
 }  // extern "C"

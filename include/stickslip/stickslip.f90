@@ -86,6 +86,68 @@ module stickslip
     real(c_double) :: memory(13) = 0 ! of its elements
   end type
 
+  !> A slender block that rocks without slip.
+  type, bind(c) :: stickslip_slender_block
+    real(c_double) :: p = 0           ! frequency parameter [rad/s]
+    real(c_double) :: alpha = 0       ! from its side to the line from a corner to the center of mass [rad]
+    real(c_double) :: alpha_left = 0  ! of its left corner, if it differs; 0: alpha
+    real(c_double) :: restitution = 0 ! rate after an impact over that before, 0 to 1
+  end type
+
+  !> A rigid block that rocks, slides and leaves the ground.
+  type, bind(c) :: stickslip_rocking_block
+    real(c_double) :: width = 0, height = 0 ! [m]
+    real(c_double) :: mu = 0                ! coefficient of friction; 0: it never slips
+    real(c_double) :: restitution = 0       ! of its base; 0: that of the impact law
+    real(c_double) :: center_offset = 0     ! of the center of mass to the right of the middle [m]
+    real(c_double) :: center_height = 0     ! of the center of mass [m]; 0: half the height
+    real(c_double) :: gyration_radius = 0   ! about the center of mass [m]; 0: uniform
+  end type
+
+  !> The complete state of either block. By default at rest.
+  type, bind(c) :: stickslip_rocking_state
+    real(c_double) :: rotation = 0, rate = 0         ! positive to the right [rad], [rad/s]
+    real(c_double) :: mode = 0                       ! -1, 1: on a corner; 0: at rest; 2: sliding; 3: in flight
+    real(c_double) :: overturned = 0                 ! -1, 1: on its side; 0: it is not
+    real(c_double) :: slip = 0                       ! direction in which it slips
+    real(c_double) :: displacement = 0, velocity = 0 ! of the base or the corner [m], [m/s]
+    real(c_double) :: rise = 0, climb = 0            ! of the center of mass in flight [m], [m/s]
+  end type
+
+  integer, parameter :: STICKSLIP_MOST_SUPPORTS = 16
+  enum, bind(c)
+    enumerator :: STICKSLIP_SWIVEL_CASTER = 0, STICKSLIP_FIXED_WHEEL = 1, STICKSLIP_FOOT = 2
+  end enum
+
+  !> What a cart stands on.
+  type, bind(c) :: stickslip_support
+    integer(c_int) :: kind = 0       ! STICKSLIP_SWIVEL_CASTER, ...
+    real(c_double) :: at(2) = 0      ! in the frame of the cart [m]
+    real(c_double) :: heading = 0    ! of a caster from its wheel to its pivot, of a wheel its direction [rad]
+    real(c_double) :: mu = 0         ! friction across the wheel over its load; of a foot in any direction
+    real(c_double) :: reach = 0      ! of a caster [m]
+    real(c_double) :: rolling_mu = 0 ! rolling resistance over the load
+    real(c_double) :: share = 0      ! of the weight; all 0: those of equal stiffness
+  end type
+
+  !> A rigid cart in the plane.
+  type, bind(c) :: stickslip_cart
+    integer(c_int) :: supports = 0 ! how many entries below count, 1 to 16
+    type(stickslip_support) :: support(STICKSLIP_MOST_SUPPORTS)
+    real(c_double) :: radius_of_gyration = 0 ! [m]
+    real(c_double) :: center(2) = 0          ! of mass [m]; with shares it follows from them
+  end type
+
+  !> The complete state of a cart. By default at rest, with the headings of its casters.
+  type, bind(c) :: stickslip_cart_state
+    real(c_double) :: displacement(2) = 0, yaw = 0  ! [m], [rad]
+    real(c_double) :: velocity(2) = 0, yaw_rate = 0 ! [m/s], [rad/s]
+    real(c_double) :: started = 0                   ! 1 after the first step: what follows then counts
+    real(c_double) :: headings(STICKSLIP_MOST_SUPPORTS) = 0
+    real(c_double) :: moving = 0, known = 0         ! 1 if it moves; how many contacts count
+    real(c_double) :: contacts(2*STICKSLIP_MOST_SUPPORTS) = 0
+  end type
+
   interface
     !> Check a slider and make a model of it. Returns STICKSLIP_OK or an error; then the model is c_null_ptr.
     integer(c_int) function stickslip_create(slider, model) bind(c)
@@ -145,6 +207,30 @@ module stickslip
       type(stickslip_segment), intent(in) :: segment
       type(stickslip_pendulum_state), intent(inout) :: state
       real(c_double), intent(inout), optional :: displacements(8)
+    end function
+
+    !> Advance a slender block through one segment.
+    integer(c_int) function stickslip_advance_slender_block(block, segment, state) bind(c)
+      import
+      type(stickslip_slender_block), intent(in) :: block
+      type(stickslip_segment), intent(in) :: segment
+      type(stickslip_rocking_state), intent(inout) :: state
+    end function
+
+    !> Advance a rigid block through one segment.
+    integer(c_int) function stickslip_advance_rocking_block(block, segment, state) bind(c)
+      import
+      type(stickslip_rocking_block), intent(in) :: block
+      type(stickslip_segment), intent(in) :: segment
+      type(stickslip_rocking_state), intent(inout) :: state
+    end function
+
+    !> Advance a cart through one segment.
+    integer(c_int) function stickslip_advance_cart(cart, segment, state) bind(c)
+      import
+      type(stickslip_cart), intent(in) :: cart
+      type(stickslip_planar_segment), intent(in) :: segment
+      type(stickslip_cart_state), intent(inout) :: state
     end function
   end interface
 

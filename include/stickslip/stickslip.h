@@ -1,4 +1,4 @@
-/* A slider with Coulomb friction, for codes in C and Fortran with their own time loop.
+/* Sliders with Coulomb friction, blocks that rock and carts, for codes in C and Fortran with their own time loop.
  *
  * A slider, a segment and a state are structs of numbers, which the caller owns. Members that you leave out of an
  * initializer, as in `stickslip_slider slider = {0};`, are 0. Two ways to advance a slider give the same bits:
@@ -12,9 +12,10 @@
  *
  * The same sliders move in two horizontal directions with stickslip_step_planar and stickslip_advance_planar, which
  * take a stickslip_planar_segment and a stickslip_planar_state. A pendulum with several surfaces moves with
- * stickslip_advance_pendulum.
+ * stickslip_advance_pendulum, a block that rocks with stickslip_advance_slender_block or stickslip_advance_rocking_block,
+ * and a cart with stickslip_advance_cart.
  *
- * Only stickslip_create allocates memory. The only global data are the last message of each thread. No exception leaves
+ * Only stickslip_create and stickslip_advance_cart allocate memory. The only global data are the last message of each thread. No exception leaves
  * these functions.
  *
  * SI units. A level is a friction force per unit mass: the coefficient of friction times 9.80665 m/s^2.
@@ -106,6 +107,70 @@ typedef struct stickslip_pendulum_state {
   double memory[13]; /* of its elements: u_k / R_k (of a flat one u_k) of up to eight, then what moved last. Store it */
 } stickslip_pendulum_state;
 
+/* A block that rocks on its corners: slender, of small angles, without slip or flight (Housner 1963),
+ *     theta'' = p^2 (G/g)(theta - s alpha) - p^2 n/g,    s = sgn(theta),   G = g + a_z > 0
+ * At theta = 0 its rate becomes restitution times that before. */
+typedef struct stickslip_slender_block {
+  double p;           /* frequency parameter [rad/s], positive */
+  double alpha;       /* from its side to the line from the corner to the center of mass [rad], below pi/2 */
+  double alpha_left;  /* that of its left corner, if it differs; 0: alpha */
+  double restitution; /* rate after an impact over that before, from 0 to 1 */
+} stickslip_slender_block;
+
+/* A rigid block that rocks, slides and leaves the ground, with large rotations and plastic impacts. */
+typedef struct stickslip_rocking_block {
+  double width, height;   /* [m], positive */
+  double mu;              /* coefficient of friction; 0: it never slips */
+  double restitution;     /* of its base, up to 1; 0: that of the impact law, Housner's without slip */
+  double center_offset;   /* of the center of mass to the right of the middle of the base [m] */
+  double center_height;   /* of the center of mass [m]; 0: half the height */
+  double gyration_radius; /* about the center of mass [m]; 0: that of a uniform block */
+} stickslip_rocking_block;
+
+/* The complete state of either block. All zeros: at rest. */
+typedef struct stickslip_rocking_state {
+  double rotation;   /* theta, positive to the right, about the right corner [rad] */
+  double rate;       /* theta' [rad/s] */
+  double mode;       /* -1, 1: on its left, right corner; 0: at rest; 2: sliding on its base; 3: in flight. Store it */
+  double overturned; /* -1, 1: it lies on its left, right side; 0: it does not */
+  double slip;       /* direction in which its base or its corner slips, -1 or 1; 0 if it sticks, and in flight */
+  double displacement, velocity; /* of the base or the corner, in flight of the center of mass [m], [m/s] */
+  double rise, climb;            /* of the center of mass in flight, above its height at rest [m], and its rate [m/s] */
+} stickslip_rocking_state;
+
+enum { STICKSLIP_MOST_SUPPORTS = 16 };
+enum stickslip_support_kind { STICKSLIP_SWIVEL_CASTER = 0, STICKSLIP_FIXED_WHEEL = 1, STICKSLIP_FOOT = 2 };
+
+/* What a cart stands on. Directions are angles from its axis toward the transverse direction. */
+typedef struct stickslip_support {
+  int kind;          /* a stickslip_support_kind */
+  double at[2];      /* of a caster the pivot; in the frame of the cart [m] */
+  double heading;    /* of a caster at the start, from its wheel to its pivot; of a wheel its direction [rad] */
+  double mu;         /* friction across the wheel over its load; of a foot in any direction */
+  double reach;      /* of a caster, over which it aligns with its path [m], positive */
+  double rolling_mu; /* rolling resistance over the load */
+  double share;      /* of the weight; all 0: those of equal stiffness */
+} stickslip_support;
+
+/* A rigid cart in the plane. */
+typedef struct stickslip_cart {
+  int supports; /* how many of the entries below count: 1 to 16 */
+  stickslip_support support[STICKSLIP_MOST_SUPPORTS];
+  double radius_of_gyration; /* about the center of mass [m], positive */
+  double center[2];          /* of mass, in the frame of the cart [m]; with shares it follows from them */
+} stickslip_cart;
+
+/* The complete state of a cart. All zeros: at rest, with the headings of its casters. */
+typedef struct stickslip_cart_state {
+  double displacement[2], yaw;                  /* of the center of mass [m]; [rad] */
+  double velocity[2], yaw_rate;                 /* [m/s], [rad/s] */
+  double started;                               /* 1 after the first step: what follows then counts */
+  double headings[STICKSLIP_MOST_SUPPORTS];     /* of the casters in order, relative to the cart [rad] */
+  double moving;                                /* 0 at rest, else 1 */
+  double known;                                 /* how many of the contacts count. Store them all */
+  double contacts[2 * STICKSLIP_MOST_SUPPORTS]; /* directions in which wheels slide along and across, and feet */
+} stickslip_cart_state;
+
 /* A slider whose numbers have been checked. */
 typedef struct stickslip_model stickslip_model;
 
@@ -166,6 +231,24 @@ int stickslip_advance_planar(const stickslip_slider* slider, const stickslip_pla
  * inner, then outward; room for eight. May be null */
 int stickslip_advance_pendulum(const stickslip_pendulum* pendulum, const stickslip_segment* segment,
                                stickslip_pendulum_state* state, double* displacements);
+
+/* Advance a block through one segment, with every uplift, impact, slip, stick, liftoff and landing.
+ *
+ * segment  the ground acceleration; a slender block needs g + a_z > 0
+ * state    at the start; replaced by the state at the end, and unchanged by an error. A start by hand is a rotation and a rate
+ *          with mode 1 to the right, -1 to the left. What has overturned stays so
+ * Return STICKSLIP_OK or another stickslip_status; stickslip_message then describes the error: STICKSLIP_NO_CONVERGENCE where
+ * friction does not decide how a block slips. A slender block is exact to round-off; it has overturned at |theta| = pi/2,
+ * because what the record will bring is not known. */
+int stickslip_advance_slender_block(const stickslip_slender_block* block, const stickslip_segment* segment,
+                                    stickslip_rocking_state* state);
+int stickslip_advance_rocking_block(const stickslip_rocking_block* block, const stickslip_segment* segment,
+                                    stickslip_rocking_state* state);
+
+/* Advances a cart through one segment, with every slip, stick and reversal of its supports, as stickslip_advance does a
+ * slider in the plane. A start in motion needs a velocity or a yaw rate only. */
+int stickslip_advance_cart(const stickslip_cart* cart, const stickslip_planar_segment* segment,
+                           stickslip_cart_state* state);
 
 /* Checks a slider, as stickslip_create does, without making a model. */
 int stickslip_check(const stickslip_slider* slider);
