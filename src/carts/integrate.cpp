@@ -7,8 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/samples.hpp"
 #include "carts/model.hpp"
 #include "carts/recorder.hpp"
+#include "carts/run.hpp"
 #include "carts/system.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/run/detail/run.hpp"
@@ -46,8 +48,9 @@ class CartRun {
   using Response = CartResponse;
   using Recorder = CartRecorder;
 
-  CartRun(const CartModel& model, CartWorkspace& work, const GroundMotion& motion, const CartOptions& options)
-      : model_(model), work_(work), motion_(motion), options_(options) {}
+  CartRun(const CartModel& model, CartWorkspace& work, const GroundMotion& motion, const CartOptions& options,
+          Samples samples)
+      : model_(model), work_(work), motion_(motion), options_(options), samples_(samples) {}
 
   const GroundMotion& motion() const noexcept { return motion_; }
   const CartOptions& options() const noexcept { return options_; }
@@ -81,7 +84,7 @@ class CartRun {
   }
 
   Recorder recorder(const State& state, Response& response) const {
-    const std::size_t samples = motion_.samples();
+    const std::size_t samples = samples_ == Samples::kept ? motion_.samples() : 0;
     response.displacement.reserve(samples);
     response.velocity.reserve(samples);
     response.yaw.reserve(samples);
@@ -119,6 +122,7 @@ class CartRun {
                              " m/s and turns at " + shortest(state.yaw_rate) + " rad/s; integrate it without settle");
     }
     const double end = std::max(begin, recorder.last_event());
+    if (samples_ == Samples::dropped) return end;
     CartWorkspace work(model_);
     NoCartSink none;
     for (std::size_t i = motion_.segments(); motion_.time(i) < end; ++i) {
@@ -149,6 +153,7 @@ class CartRun {
     return {duration, {}, {}, standard_gravity, standard_gravity};
   }
   void keep(const State& state, Response& response) const {
+    if (samples_ == Samples::dropped) return;
     response.displacement.push_back(state.displacement);
     response.velocity.push_back(state.velocity);
     response.yaw.push_back(state.yaw);
@@ -160,15 +165,25 @@ class CartRun {
   CartWorkspace& work_;
   const GroundMotion& motion_;
   const CartOptions& options_;
+  Samples samples_;
 };
 
+CartResponse run(const Cart& cart, const GroundMotion& motion, const CartOptions& options, Samples samples) {
+  const CartModel model(cart);
+  CartWorkspace work(model);
+  return integrate_run(CartRun(model, work, motion, options, samples), {});
+}
+
 }  // namespace
+
+CartResponse integrate_without_samples(const Cart& cart, const GroundMotion& motion, const CartOptions& options) {
+  return run(cart, motion, options, Samples::dropped);
+}
+
 }  // namespace detail
 
 CartResponse integrate(const Cart& cart, const GroundMotion& motion, const CartOptions& options) {
-  const detail::CartModel model(cart);
-  detail::CartWorkspace work(model);
-  return detail::integrate_run(detail::CartRun(model, work, motion, options), {});
+  return detail::run(cart, motion, options, detail::Samples::kept);
 }
 
 double condition(const Cart& cart, const GroundMotion& motion, const CartOptions& options) {

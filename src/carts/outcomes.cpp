@@ -2,6 +2,7 @@
 
 #include "base/attempt.hpp"
 #include "base/outcomes.hpp"
+#include "carts/run.hpp"
 #include "stickslip/carts/integrate.hpp"
 
 namespace stickslip {
@@ -12,7 +13,7 @@ CartOutcome cart_outcome(const Cart& cart, const GroundMotion& motion, const Car
   CartOutcome found;
   detail::attempt(
       [&] {
-        CartResponse r = integrate(cart, motion, options);
+        CartResponse r = detail::integrate_without_samples(cart, motion, options);
         found = {r.peak,         r.peak_yaw, r.peak_outline, r.residual,
                  r.residual_yaw, r.rests,    r.margin,       std::move(r.clearances)};
       },

@@ -103,6 +103,32 @@ class RockingRecorder final : public RockingSink, public EventLog<double>, publi
     arrives_ = leg.acceleration(end.rotation, duration);
   }
 
+  // Moves a block through a whole segment about its corner, if it neither lands nor turns there and the ground has no vertical
+  // motion: what `follow` finds of its leg, by the same formulas.
+  bool glide(const RockingSegment& ground, double end, RockingState& state) {
+    const double s = sign(state.mode), tilt = s * alpha_of(block_, state.mode), t = ground.duration;
+    const double square = block_.p() * block_.p() / standard_gravity, heavy = ground.heavy_start;
+    const double n = ground.n_start, slope = (ground.n_end - n) / t, p = std::sqrt(square * heavy), c = slope / heavy;
+    const HyperbolicSums& sums = this->sums()(p, t);
+    const auto move = [&](const RockingLeg::Place& from, double a) -> RockingLeg::Place {
+      return {from.rotation + (from.rate * sums.first + a * sums.second + c * sums.third),
+              from.rate * sums.cosh + a * sums.first - c * (p * p) * sums.second};
+    };
+    const double a = square * (heavy * (state.rotation - tilt) - n);
+    const RockingLeg::Place place = move({state.rotation, state.rate}, a);
+    const double last = square * (heavy * (place.rotation - tilt) - ground.n_end);
+    if (!(s * place.rotation > 0 && state.rate * place.rate > 0 && a * last >= 0)) return false;
+    count_work();
+    reach(place.rotation, end);
+    const double integral = state.rate * sums.second - a * sums.third / (p * p) + c * (t * t / 2 - sums.second);
+    response_.energy.input -= square * ((n + t * slope) * (place.rotation - state.rotation) - slope * integral);
+    response_.time_rocking += t;
+    variation_ = move(variation_, square * (heavy * variation_.rotation - n));
+    state.rotation = place.rotation;
+    state.rate = place.rate;
+    return true;
+  }
+
   void event(EventKind kind, double time, const RockingState& state) override {
     count_work();
     add(kind, time, state.rotation, state.rate);
@@ -178,8 +204,8 @@ class RockingRun {
   using Response = RockingResponse;
   using Recorder = RockingRecorder;
 
-  RockingRun(const SlenderBlock& block, const GroundMotion& motion, const RockingOptions& options)
-      : block_(block), motion_(motion), options_(options) {
+  RockingRun(const SlenderBlock& block, const GroundMotion& motion, const RockingOptions& options, Samples samples)
+      : block_(block), motion_(motion), options_(options), samples_(samples) {
     for (std::size_t i = 0; i < motion.vertical().size(); ++i)
       require(standard_gravity + motion.vertical()[i] > 0,
               "integrate: under this vertical motion the block leaves the ground, which a SlenderBlock cannot: "
@@ -193,8 +219,9 @@ class RockingRun {
   State start() const { return start_of(options_); }
 
   Recorder recorder(const State& state, Response& response) const {
-    response.rotation.assign(motion_.samples(), 0);
-    response.rate.assign(motion_.samples(), 0);
+    const std::size_t kept = samples_ == Samples::kept ? motion_.samples() : 0;
+    response.rotation.assign(kept, 0);
+    response.rate.assign(kept, 0);
     keep(0, state, response);
     if (motion_.has_vertical()) response.components = "axis + vertical";
     return {block_, motion_, state, options_.progress, response};
@@ -206,8 +233,11 @@ class RockingRun {
       if (is_stuck(state)) i = rest(i, recorder);
       if (i == count) break;
       const RockingSegment ground = segment_of(motion_, i);
-      recorder.begin_segment(motion_.time(i), motion_.time(i + 1), ground, i);
-      move(block_, ground, state, recorder);
+      const bool glides = !motion_.has_vertical() && ground.duration > 0 && !lies(state) && !is_stuck(state);
+      if (!(glides && recorder.glide(ground, motion_.time(i + 1), state))) {
+        recorder.begin_segment(motion_.time(i), motion_.time(i + 1), ground, i);
+        move(block_, ground, state, recorder);
+      }
       judge(i + 1, state, recorder);
       recorder.sample(state);
       keep(i + 1, state, response);
@@ -238,6 +268,7 @@ class RockingRun {
       if (state.overturned != 0) recorder.overturned(recorder.last_event(), state);
     }
     const double end = std::max(begin, recorder.last_event());
+    if (samples_ == Samples::dropped) return end;
     NoRockingSink none;
     keep_until(
         end, motion_, at_end_of_motion, state, response,
@@ -281,6 +312,7 @@ class RockingRun {
     if (state.overturned != 0) recorder.overturned(motion_.time(sample), state);
   }
   void keep(std::size_t sample, const State& state, Response& response) const {
+    if (samples_ == Samples::dropped) return;
     response.rotation[sample] = state.rotation;
     response.rate[sample] = state.rate;
   }
@@ -288,13 +320,20 @@ class RockingRun {
   const SlenderBlock& block_;
   const GroundMotion& motion_;
   const RockingOptions& options_;
+  Samples samples_;
 };
 
 }  // namespace
+
+RockingResponse integrate_without_samples(const SlenderBlock& block, const GroundMotion& motion,
+                                          const RockingOptions& options) {
+  return integrate_run(RockingRun(block, motion, options, Samples::dropped), {});
+}
+
 }  // namespace detail
 
 RockingResponse integrate(const SlenderBlock& block, const GroundMotion& motion, const RockingOptions& options) {
-  return detail::integrate_run(detail::RockingRun(block, motion, options), {});
+  return detail::integrate_run(detail::RockingRun(block, motion, options, detail::Samples::kept), {});
 }
 
 void advance(const SlenderBlock& block, const RockingGround& segment, RockingState& state) {

@@ -4,6 +4,7 @@
 
 #include "base/attempt.hpp"
 #include "base/outcomes.hpp"
+#include "rocking/run.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/rocking/integrate.hpp"
 
@@ -16,7 +17,7 @@ RockingOutcome outcome(const Block& block, const GroundMotion& motion, const Roc
   RockingOutcome found;
   detail::attempt(
       [&] {
-        const RockingResponse r = integrate(block, motion, options);
+        const RockingResponse r = detail::integrate_without_samples(block, motion, options);
         found = {r.peak,   r.peak_ratio, r.overturned, r.overturned_at,    r.impacts,
                  r.margin, r.condition,  r.residual,   r.sliding_distance, r.liftoffs};
       },
@@ -49,7 +50,7 @@ std::vector<ScaleRange> scales_of(const Block& block, const GroundMotion& motion
   how.progress = progress;
   const auto overturns = [&](double scale) {
     if (progress) progress();
-    return integrate(block, motion.scaled(scale), how).overturned != 0;
+    return detail::integrate_without_samples(block, motion.scaled(scale), how).overturned != 0;
   };
   // Where the outcome changes between two scales.
   const auto bound = [&](double low, double high, bool at_high) {

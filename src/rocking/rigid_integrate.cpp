@@ -148,10 +148,11 @@ class RigidRun {
   using Response = RockingResponse;
   using Recorder = RigidRecorder;
 
-  RigidRun(const RockingBlock& block, const GroundMotion& motion, const RockingOptions& options)
+  RigidRun(const RockingBlock& block, const GroundMotion& motion, const RockingOptions& options, Samples samples)
       : block_(block),
         motion_(motion),
         options_(options),
+        samples_(samples),
         slender_(std::min(block.p_right(), block.p_left()), block.alpha_right(), block.alpha_left(),
                  std::min(block.restitution_right(), block.restitution_left())) {
     if (!motion.has_vertical()) overturning_.emplace(slender_, motion);
@@ -166,7 +167,7 @@ class RigidRun {
     for (std::vector<double>* history :
          {&response.rotation, &response.rate, &response.displacement, &response.top_displacement, &response.gap}) {
       history->clear();
-      history->reserve(motion_.samples());
+      if (samples_ == Samples::kept) history->reserve(motion_.samples());
     }
     keep(state, response);
     response.condition = std::numeric_limits<double>::quiet_NaN();
@@ -213,6 +214,7 @@ class RigidRun {
       time += longest;
     }
     const double end = std::max(begin, recorder.last_event());
+    if (samples_ == Samples::dropped) return end;
     NoRigidSink none;
     keep_until(
         end, motion_, at_end_of_motion, state, response,
@@ -236,6 +238,7 @@ class RigidRun {
     return equal(n, 0) ? 0 : std::abs(n) / (most * heavy);
   }
   void keep(const State& state, Response& response) const {
+    if (samples_ == Samples::dropped) return;
     response.rotation.push_back(state.rotation);
     response.rate.push_back(state.rate);
     response.displacement.push_back(base_displacement(block_, state));
@@ -246,15 +249,22 @@ class RigidRun {
   const RockingBlock& block_;
   const GroundMotion& motion_;
   const RockingOptions& options_;
+  Samples samples_;
   SlenderBlock slender_;
   std::optional<Overturning> overturning_{};
 };
 
 }  // namespace
+
+RockingResponse integrate_without_samples(const RockingBlock& block, const GroundMotion& motion,
+                                          const RockingOptions& options) {
+  return integrate_run(RigidRun(block, motion, options, Samples::dropped), {});
+}
+
 }  // namespace detail
 
 RockingResponse integrate(const RockingBlock& block, const GroundMotion& motion, const RockingOptions& options) {
-  return detail::integrate_run(detail::RigidRun(block, motion, options), {});
+  return detail::integrate_run(detail::RigidRun(block, motion, options, detail::Samples::kept), {});
 }
 
 void advance(const RockingBlock& block, const RockingGround& segment, RockingState& state) {

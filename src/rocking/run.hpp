@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/samples.hpp"
 #include "rocking/leg.hpp"
 #include "stickslip/base/equal.hpp"
 #include "stickslip/error.hpp"
@@ -19,6 +20,12 @@
 namespace stickslip::detail {
 
 constexpr double quarter_turn = std::numbers::pi / 2;  // the block lies on its side
+
+/// `integrate` without the motion at the samples.
+RockingResponse integrate_without_samples(const SlenderBlock& block, const GroundMotion& motion,
+                                          const RockingOptions& options);
+RockingResponse integrate_without_samples(const RockingBlock& block, const GroundMotion& motion,
+                                          const RockingOptions& options);
 
 inline RockingState start_of(const RockingOptions& options) {
   require(std::isfinite(options.rotation) && std::abs(options.rotation) < quarter_turn,

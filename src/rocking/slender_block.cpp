@@ -19,6 +19,19 @@ SlenderBlock::SlenderBlock(double p, double alpha_right, double alpha_left, doub
   detail::require(restitution >= 0 && restitution <= 1, "SlenderBlock: restitution must be from 0 to 1", restitution);
 }
 
+double SlenderBlock::period(double rotation) const {
+  const double size = std::abs(rotation), alpha = rotation < 0 ? alpha_[1] : alpha_[0];
+  const double other = rotation < 0 ? alpha_[0] : alpha_[1];
+  detail::require(size > 0 && size < alpha, "SlenderBlock: the amplitude of a period must be below alpha and not zero",
+                  rotation, "rad");
+  // On the other side up to the same potential, theta (alpha - theta/2).
+  const double rise = size * (2 * alpha - size), left = other * other - rise;
+  detail::require(left > 0, "SlenderBlock: with this amplitude the block overturns on its other side", rotation, "rad");
+  // arcosh(1/(1 - x)) = 2 artanh(sqrt(x/(2 - x)))
+  const auto quarter = [&](double x) { return 2 * std::atanh(std::sqrt(x / (2 - x))) / p_; };
+  return 2 * (quarter(size / alpha) + quarter(rise / (other + std::sqrt(left)) / other));
+}
+
 double housner_restitution(double alpha) {
   const double sine = std::sin(alpha);
   return 1 - 1.5 * sine * sine;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -320,4 +321,51 @@ TEST_CASE("slender block: sizes, limits and bad input") {
   CHECK(integrate(cabinet, GroundMotion({0, 0, 0}, std::vector<double>{5, 6, 7}), tilted(0.1)).peak_time == 5);
   RockingState state;
   refused([&] { advance(cabinet, {NAN, 0, 0}, state); }, "must be finite");
+}
+
+TEST_CASE("The period of a slender block is that of free rocking") {
+  const SlenderBlock equal(2, 0.2, 1), leaning(2, 0.2, 0.15, 1);
+  CHECK(equal.period(0.1) == Approx(4 / 2.0 * std::acosh(2)).epsilon(1e-14));
+  CHECK(equal.period(0.1) == equal.period(-0.1));
+  CHECK(equal.period(1e-12) == Approx(4 / 2.0 * std::sqrt(2 * 1e-12 / 0.2)).epsilon(1e-11));
+  for (const double start : {0.05, -0.1}) {
+    // Let go at rest, it is back there after a period.
+    RockingState state = RockingState::at(start, 0);
+    advance(leaning, {leaning.period(start), 0, 0}, state);
+    CHECK(state.rotation == Approx(start).epsilon(1e-13));
+    CHECK(std::abs(state.rate) <= 1e-13);
+  }
+  CHECK_THROWS_WITH(equal.period(0.2), ContainsSubstring("below alpha and not zero, got 0.2 rad"));
+  CHECK_THROWS_WITH(equal.period(0), ContainsSubstring("not zero"));
+  CHECK_THROWS_WITH(leaning.period(0.15), ContainsSubstring("overturns on its other side"));
+}
+
+TEST_CASE("Whole steps of a slender block are those of its legs") {
+  // With a vertical motion of zero every step takes a leg; only the certificate and the margin need its absence.
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal;
+  std::size_t impacts = 0;
+  for (int k = 0; k < 40; ++k) {
+    std::vector<double> n(600);
+    double last = 0;
+    for (double& value : n) value = last = 0.9 * last + 0.6 * normal(random);
+    const GroundMotion motion(n, 0.02, k % 2 == 0 ? Interpolation::linear : Interpolation::constant);
+    const SlenderBlock block(2, 0.2, k % 3 == 0 ? 0.15 : 0.2, 0.85);
+    const RockingResponse whole = integrate(block, motion);
+    const RockingResponse legs = integrate(block, motion.with_components({}, std::vector<double>(n.size())));
+    impacts += whole.impacts;
+    for (std::size_t i = 0; i < n.size(); ++i)
+      if (whole.overturned == 0 || motion.time(i) <= whole.overturned_at) {
+        REQUIRE(whole.rotation[i] == legs.rotation[i]);
+        REQUIRE(whole.rate[i] == legs.rate[i]);
+      }
+    if (whole.overturned != 0) continue;
+    CHECK(whole.peak == legs.peak);
+    CHECK(whole.peak_time == Approx(legs.peak_time).epsilon(1e-14));
+    CHECK(whole.impacts == legs.impacts);
+    CHECK(whole.condition == Approx(legs.condition).epsilon(1e-12));
+    CHECK(whole.energy.input == Approx(legs.energy.input).epsilon(1e-12));
+    CHECK(whole.time_rocking == Approx(legs.time_rocking).epsilon(1e-12));
+  }
+  CHECK(impacts > 500);
 }

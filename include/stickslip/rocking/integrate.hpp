@@ -32,7 +32,7 @@ struct RockingOptions {
 /// bring it back: with q = theta' + p (theta - alpha) and the bounded motion Theta under the whole record,
 ///     sigma = q - q* > 0  and  alpha + min Theta + (sigma - max(d - d*, 0))/(2 p) > 0 from now on.
 /// Under vertical motion it has overturned at |theta| = pi/2, or after the record where q > 0.
-/// Cost: 3 ns a sample at rest, 0.1 us rocking; 0.3 us with an impact at every third sample.
+/// Cost: 3 ns a sample at rest, 40 ns rocking; 0.7 us an impact.
 RockingResponse integrate(const SlenderBlock& block, const GroundMotion& motion, const RockingOptions& options = {});
 
 /// Integrate the motion of a rigid block under a ground motion, with every uplift, impact, slip, stick, liftoff and landing;

@@ -43,6 +43,12 @@ class SlenderBlock {
   /// The smaller alpha [rad].
   double alpha() const noexcept { return alpha_[0] < alpha_[1] ? alpha_[0] : alpha_[1]; }
 
+  /// Period of free rocking between impacts that lose nothing [s], Housner (1963): (4/p) arcosh(1/(1 - rotation/alpha)) with
+  /// equal sides. It grows with the amplitude, to infinity at alpha.
+  /// @param rotation  amplitude [rad]: positive to the right, negative to the left, not zero
+  /// @throws std::invalid_argument  an amplitude with which the block would overturn on one side
+  double period(double rotation) const;
+
   friend bool operator==(const SlenderBlock&, const SlenderBlock&) = default;
 
  private:

@@ -131,6 +131,20 @@ Self integrate_cart(const CartAsGiven& cart, const py::object& motion, double ya
   return self;
 }
 
+// Places and rates of shape (samples, 3): along the axis, transverse, and the yaw.
+py::tuple histories_cart(const CartAsGiven& cart, const py::object& motion) {
+  const Self self = integrate_cart(cart, motion, 0, py::make_tuple(0.0, 0.0), 0, false, py::tuple());
+  const CartResponse& r = self.response;
+  const auto rows = [](const std::vector<Vector2>& moves, const std::vector<double>& turns) {
+    std::vector<double> values;
+    values.reserve(3 * moves.size());
+    for (std::size_t i = 0; i < moves.size(); ++i)
+      values.insert(values.end(), {moves[i].axis, moves[i].transverse, turns[i]});
+    return array_of(std::move(values)).attr("reshape")(moves.size(), 3);
+  };
+  return py::make_tuple(rows(r.displacement, r.yaw), rows(r.velocity, r.yaw_rate));
+}
+
 std::optional<double> unless_nan(double value) { return std::isnan(value) ? std::nullopt : std::optional(value); }
 
 }  // namespace
@@ -364,6 +378,10 @@ of a point, relative to the center of mass at the start [m], and a direction, wh
 
 Exact to round-off, which grows while casters swivel against their motion; some 30 us per event. ValueError also for a motion
 without a transverse component, and with `settle` for a cart without rolling resistance, which may roll without end.)");
+  m.def(
+      "histories", &histories_cart, py::arg("slider"), py::arg("motion"),
+      R"(With a `Cart`, the motion of a cart from rest: of shape (samples, 3), the displacement of its center of mass along
+the axis and the transverse direction [m] and the yaw [rad]; and their rates. The same bits as `integrate`, and its time.)");
 }
 
 }  // namespace stickslip::python

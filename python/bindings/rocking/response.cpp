@@ -128,17 +128,27 @@ std::string remark_of(const Self& self) {
 }
 
 template <class Block>
-Self integrate_block(const Block& block, const py::object& motion, double rotation, double rate, bool settle) {
+RockingResponse response_of(const Block& block, const py::object& motion, const RockingOptions& options,
+                            const char* who) {
   if (!py::isinstance<GroundMotion>(motion))
-    throw py::type_error("integrate: the motion of a block that rocks must be a GroundMotion, got " +
+    throw py::type_error(who + std::string(": the motion of a block that rocks must be a GroundMotion, got ") +
                          py::type::of(motion).attr("__name__").cast<std::string>() +
                          (py::isinstance<HarmonicMotion>(motion) ? "; give motion.sampled(dt)" : ""));
   const auto& ground = motion.cast<const GroundMotion&>();
-  RockingResponse response = [&] {
-    const py::gil_scoped_release released;
-    return integrate(block, ground, {rotation, rate, settle, check_for_interrupt});
-  }();
-  return {std::move(response), py::cast(block), motion};
+  const py::gil_scoped_release released;
+  return integrate(block, ground, options);
+}
+
+template <class Block>
+Self integrate_block(const Block& block, const py::object& motion, double rotation, double rate, bool settle) {
+  return {response_of(block, motion, {rotation, rate, settle, check_for_interrupt}, "integrate"), py::cast(block),
+          motion};
+}
+
+template <class Block>
+py::tuple histories_block(const Block& block, const py::object& motion) {
+  RockingResponse response = response_of(block, motion, {.progress = check_for_interrupt}, "histories");
+  return py::make_tuple(array_of(std::move(response.rotation)), array_of(std::move(response.rate)));
 }
 
 auto picture(const char* function) {
@@ -361,7 +371,7 @@ horizontal component along the axis acts, and a vertical one, under which g + a_
 block rests or falls. Returns a `RockingResponse`.
 
 Closed form between impacts, exact to round-off, which grows as e^(p t) between rests (see `RockingResponse.condition`); 3 ns
-per sample at rest, 0.1 us rocking, 0.3 us where every third sample has an impact. ValueError also for g + a_z <= 0; ConvergenceError with
+per sample at rest, 40 ns rocking, 0.7 us an impact. ValueError also for g + a_z <= 0; ConvergenceError with
 `settle` and a restitution of 1.)");
   m.def(
       "integrate", &integrate_block<RockingBlock>, py::arg("slider"), py::arg("motion"), py::kw_only(),
@@ -371,6 +381,12 @@ per sample at rest, 0.1 us rocking, 0.3 us where every third sample has an impac
 
 Taylor series between events, exact to round-off, which grows as e^(p t) between rests; 0.5 us per sample rocking, 2 us
 slipping. ConvergenceError where its friction decides nothing, see `RockingBlock`, and with `settle` if it never rests.)");
+  m.def(
+      "histories", &histories_block<SlenderBlock>, py::arg("slider"), py::arg("motion"),
+      R"(With a `SlenderBlock`, the rotation [rad] and its rate [rad/s] of a block that rocks, from rest. The same bits as
+`integrate`, and its time.)");
+  m.def("histories", &histories_block<RockingBlock>, py::arg("slider"), py::arg("motion"),
+        "With a `RockingBlock`, the same of a block that also slides and flies.");
 }
 
 }  // namespace stickslip::python

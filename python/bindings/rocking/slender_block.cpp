@@ -124,6 +124,25 @@ PlausibilityWarning
       .def_property_readonly("alpha_left", &SlenderBlock::alpha_left, "alpha of the left corner [rad].")
       .def_property_readonly("restitution", &SlenderBlock::restitution,
                              "Rate after an impact of the base over that before.")
+      .def("period", &SlenderBlock::period, py::arg("rotation"),
+           R"(Period of free rocking between impacts that lose nothing.
+
+(4/p) arcosh(1/(1 - rotation/alpha)) with equal sides, Housner (1963). It grows with the amplitude, to infinity at alpha.
+
+Parameters
+----------
+rotation : float
+    Amplitude [rad]: positive to the right, negative to the left, not zero.
+
+Returns
+-------
+float
+    [s].
+
+Raises
+------
+ValueError
+    An amplitude with which the block would overturn on one side.)")
       .def("__repr__", [](const SlenderBlock& block) {
         return "SlenderBlock(p=" + literal(block.p()) + ", alpha=" + literal(block.alpha_right()) +
                ", restitution=" + literal(block.restitution()) +
