@@ -16,15 +16,9 @@ static stickslip_pendulum bearing(const double* value) {
   return of;
 }
 
-static int advance(const double* value, const stickslip_segment* segment, model_state* state) {
+static int move(const double* value, const stickslip_segment* segment, model_state* state) {
   const stickslip_pendulum of = bearing(value);
   return stickslip_advance_pendulum(&of, segment, state, 0);
-}
-
-static int check(const double* value) {
-  const stickslip_segment none = {0};
-  model_state at_rest = {0};
-  return advance(value, &none, &at_rest);
 }
 
 static double force(const double* value, const model_state* state) {
@@ -34,4 +28,4 @@ static double force(const double* value, const model_state* state) {
   return (motion->in_flight || weight < 0 ? 0 : weight * dish) + bearing(value).damping * motion->velocity;
 }
 
-#include "co_simulation.h"
+#include "one_axis.h"

@@ -1,8 +1,9 @@
-"""Builds an FMU (FMI 2.0 for co-simulation) of a slider or a friction pendulum bearing.
+"""Builds an FMU (FMI 2.0 for co-simulation) of a slider, a friction pendulum bearing or a cart.
 
-    python examples/fmu/build.py slider|bearing OBJECT [--headers DIR] [--out DIR]
+    python examples/fmu/build.py slider|bearing|cart OBJECT... [--headers DIR] [--out DIR]
 
-OBJECT is the interface in C, compiled with -fPIC: stickslip.o or libstickslip_c.a. Compiles with
+OBJECT is the interface in C, compiled with -fPIC: libstickslip_c.a, or stickslip.o and, for a cart,
+the files of src/carts that belong to it. Compiles with
 $CC and $CXX, or cc and c++. The headers of FMI come with the package fmpy; --headers names another
 folder with them.
 """
@@ -26,6 +27,7 @@ UNITS = {
     "m": {"m": 1},
     "m/s": {"m": 1, "s": -1},
     "m/s2": {"m": 1, "s": -2},
+    "rad": {"rad": 1},
     "rad/s": {"rad": 1, "s": -1},
     "kg": {"kg": 1},
     "N": {"kg": 1, "m": 1, "s": -2},
@@ -34,11 +36,21 @@ INPUTS = [
     ("ground_acceleration", "m/s2", 0.0, "horizontal acceleration of the ground or floor"),
     ("vertical_acceleration", "m/s2", 0.0, "upward acceleration of the ground or floor"),
 ]
-OUTPUTS = [
+OF_ONE_AXIS = [
     ("displacement", "m", None, "relative to the ground"),
     ("velocity", "m/s", None, "relative to the ground"),
     ("force", "N", None, "horizontal force on the ground, at the end of the step"),
 ]
+OF_A_CART = [
+    ("displacement", "m", None, "of the center of mass along the axis, relative to the ground"),
+    ("transverse_displacement", "m", None, "the same, 90 degrees clockwise from the axis"),
+    ("yaw", "rad", None, "from the axis toward the transverse direction"),
+    ("velocity", "m/s", None, "of the center of mass along the axis"),
+    ("transverse_velocity", "m/s", None, "the same, 90 degrees clockwise from the axis"),
+    ("yaw_rate", "rad/s", None, "from the axis toward the transverse direction"),
+]
+TRANSVERSE = ("transverse_acceleration", "m/s2", 0.0, "90 degrees clockwise from the axis")
+CORNERS = ["front right", "front left", "rear right", "rear left"]
 PARAMETERS = {
     "slider": [
         ("mass", "kg", 1.0, "scales the force alone"),
@@ -57,12 +69,29 @@ PARAMETERS = {
         ("capacity", "m", 0.0, "displacement at the rim; 0: no rim"),
         ("restitution", "", 0.0, "of the rim, from 0 to 1"),
     ],
+    "cart": [
+        ("length", "m", 0.6, "between the casters, along the axis"),
+        ("width", "m", 0.4, "between the casters, across it"),
+        ("radius_of_gyration", "m", 0.25, "about the center of mass, in the middle"),
+        ("side_mu", "", 0.1, "friction across a wheel over its load"),
+        ("reach", "m", 0.04, "over which a wheel aligns with its path"),
+        ("rolling_mu", "", 0.01, "rolling resistance over the load"),
+        ("locked_mu", "", 0.3, "friction of a locked caster, in any direction"),
+        *((f"heading_{i + 1}", "rad", 0.0, f"{at}, at the start") for i, at in enumerate(CORNERS)),
+        *((f"locked_{i + 1}", "", 0.0, f"{at}: 1 locked, 0 free") for i, at in enumerate(CORNERS)),
+    ],
 }
+
+
+def ports(model):
+    """Inputs and outputs of a model."""
+    return ([*INPUTS, TRANSVERSE], OF_A_CART) if model == "cart" else (INPUTS, OF_ONE_AXIS)
 
 
 def describe(model):
     """Returns modelDescription.xml and the header variables.h, of the same lists."""
-    variables = [*INPUTS, *OUTPUTS, *PARAMETERS[model]]
+    inputs, outputs = ports(model)
+    variables = [*inputs, *outputs, *PARAMETERS[model]]
     guid = hashlib.sha256(repr((model, variables)).encode()).hexdigest()
     root = ET.Element("fmiModelDescription", fmiVersion="2.0", modelName=model, guid=guid)
     root.set("generationTool", "stickslip")
@@ -73,7 +102,7 @@ def describe(model):
         exponents = {base: str(power) for base, power in UNITS[unit].items()}
         ET.SubElement(ET.SubElement(units, "Unit", name=unit), "BaseUnit", exponents)
     listed = ET.SubElement(root, "ModelVariables")
-    causalities = ["input"] * len(INPUTS) + ["output"] * len(OUTPUTS)
+    causalities = ["input"] * len(inputs) + ["output"] * len(outputs)
     for i, (name, unit, start, description) in enumerate(variables):
         causality = causalities[i] if i < len(causalities) else "parameter"
         variability = "fixed" if causality == "parameter" else "continuous"
@@ -92,14 +121,14 @@ def describe(model):
     structure = ET.SubElement(root, "ModelStructure")
     for kind in "Outputs", "InitialUnknowns":
         of_kind = ET.SubElement(structure, kind)
-        for i in range(len(INPUTS), len(INPUTS) + len(OUTPUTS)):
+        for i in range(len(inputs), len(inputs) + len(outputs)):
             ET.SubElement(of_kind, "Unknown", index=str(i + 1))
 
     names = ", ".join(name.upper() for name, _, _, _ in variables)
     starts = ", ".join(repr(start or 0.0) for _, _, start, _ in variables)
     header = (
         f'#define GUID "{guid}"\n'
-        f"enum {{ {names}, VARIABLES, INPUTS = {len(INPUTS)}, OUTPUTS = {len(OUTPUTS)} }};\n"
+        f"enum {{ {names}, VARIABLES, INPUTS = {len(inputs)}, OUTPUTS = {len(outputs)} }};\n"
         f"static const double starts[VARIABLES] = {{{starts}}};\n"
     )
     return ET.tostring(root, encoding="utf-8", xml_declaration=True), header
@@ -127,7 +156,7 @@ def build(model, interface, headers, out):
         # With the C++ runtime inside, so that the simulator's own does not matter.
         inside = ["-static-libstdc++", "-static-libgcc"] if sys.platform == "linux" else []
         binary = Path(folder, model + suffix)
-        subprocess.run([cpp, "-shared", compiled, interface, *inside, "-o", binary], check=True)
+        subprocess.run([cpp, "-shared", compiled, *interface, *inside, "-o", binary], check=True)
         Path(out).mkdir(parents=True, exist_ok=True)
         file = Path(out, f"{model}.fmu")
         with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as fmu:
@@ -141,7 +170,9 @@ if __name__ == "__main__":
         description=__doc__, formatter_class=argparse.RawTextHelpFormatter
     )
     ask.add_argument("model", choices=sorted(PARAMETERS))
-    ask.add_argument("interface", metavar="OBJECT", type=Path, help="the interface in C, compiled")
+    ask.add_argument(
+        "interface", metavar="OBJECT", nargs="+", type=Path, help="the interface in C, compiled"
+    )
     ask.add_argument("--headers", type=Path, help="folder with fmi2Functions.h")
     ask.add_argument("--out", type=Path, default=Path(), help="folder for the FMU")
     args = ask.parse_args()

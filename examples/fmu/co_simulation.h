@@ -2,9 +2,9 @@
  * build.py writes, and defines
  *
  *     model_state                         what the model remembers; all zeros: at rest
- *     check(value)                        checks the parameters
- *     advance(value, segment, state)      the step
- *     force(value, state)                 on the ground, per unit mass, at the end of the step
+ *     check(value)                        what is wrong with the parameters; NULL if nothing is
+ *     advance(value, step, end, state)    the step, over which the inputs go from value to end
+ *     set_outputs(value, state)           from the state and the inputs at the end of the step
  *
  * Inputs are linear in time within a step if the master sets their derivatives, and constant if it does not. */
 #include <fmi2Functions.h>
@@ -24,13 +24,6 @@ static fmi2Status fail(const instance* m, const char* message) {
   if (m->callbacks.logger)
     m->callbacks.logger(m->callbacks.componentEnvironment, m->name, fmi2Error, "logStatusError", "%s", message);
   return fmi2Error;
-}
-
-static void set_outputs(instance* m) {
-  const stickslip_state* motion = (const stickslip_state*)&m->state; /* its first member, or all of it */
-  m->value[DISPLACEMENT] = motion->displacement;
-  m->value[VELOCITY] = motion->velocity;
-  m->value[FORCE] = m->value[MASS] * (motion->mode == 0 ? -m->value[GROUND_ACCELERATION] : force(m->value, &m->state));
 }
 
 fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
@@ -53,10 +46,10 @@ fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean tolerance_defined, f
 fmi2Status fmi2EnterInitializationMode(fmi2Component c) { return (void)c, fmi2OK; }
 fmi2Status fmi2ExitInitializationMode(fmi2Component c) {
   instance* m = c;
-  if (!(m->value[MASS] > 0)) return fail(m, "mass must be positive");
-  if (check(m->value) != STICKSLIP_OK) return fail(m, stickslip_message());
+  const char* wrong = check(m->value);
+  if (wrong) return fail(m, wrong);
   m->running = 1;
-  set_outputs(m);
+  set_outputs(m->value, &m->state);
   return fmi2OK;
 }
 fmi2Status fmi2Terminate(fmi2Component c) { return (void)c, fmi2OK; }
@@ -74,12 +67,10 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real step, fmi2Boolean
   instance* m = c;
   double end[INPUTS];
   for (int i = 0; i < INPUTS; ++i) end[i] = m->value[i] + step * m->slope[i];
-  const stickslip_segment segment = {step, m->value[GROUND_ACCELERATION], end[GROUND_ACCELERATION],
-                                     m->value[VERTICAL_ACCELERATION], end[VERTICAL_ACCELERATION]};
-  if (advance(m->value, &segment, &m->state) != STICKSLIP_OK) return fail(m, stickslip_message());
+  if (advance(m->value, step, end, &m->state) != STICKSLIP_OK) return fail(m, stickslip_message());
   memcpy(m->value, end, sizeof end);
   memset(m->slope, 0, sizeof m->slope);
-  set_outputs(m);
+  set_outputs(m->value, &m->state);
   return fmi2OK;
 }
 fmi2Status fmi2CancelStep(fmi2Component c) { return fail(c, "no step is pending"); }

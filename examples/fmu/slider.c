@@ -16,12 +16,7 @@ static stickslip_slider slider(const double* value) {
   return of;
 }
 
-static int check(const double* value) {
-  const stickslip_slider of = slider(value);
-  return stickslip_check(&of);
-}
-
-static int advance(const double* value, const stickslip_segment* segment, model_state* state) {
+static int move(const double* value, const stickslip_segment* segment, model_state* state) {
   const stickslip_slider of = slider(value);
   return stickslip_advance(&of, segment, state);
 }
@@ -33,4 +28,4 @@ static double force(const double* value, const model_state* state) {
   return friction + of.damping * state->velocity + of.natural_frequency * of.natural_frequency * state->displacement;
 }
 
-#include "co_simulation.h"
+#include "one_axis.h"

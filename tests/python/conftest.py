@@ -85,22 +85,30 @@ def agency_files():
 
 
 @pytest.fixture(scope="session")
-def beside_source(tmp_path_factory):
+def compile_for_c():
+    """Compiles a file of src for the interface in C."""
+    compiler = os.environ.get("CXX", "c++")
+    if shutil.which(compiler) is None:
+        pytest.skip("no C++ compiler here")
+    cache = [path] if (path := shutil.which("ccache")) else []
+    flags = ["-std=c++20", "-O0", "-fPIC", f"-I{ROOT / 'include'}", f"-I{ROOT / 'src'}"]
+
+    def compile_for_c(source, out):
+        command = [*cache, compiler, *flags, "-c", ROOT / "src" / source, "-o", out]
+        subprocess.run(command, check=True)
+
+    return compile_for_c
+
+
+@pytest.fixture(scope="session")
+def beside_source(tmp_path_factory, compile_for_c):
     """A folder with the source of stickslip in it, and the interface in C compiled.
 
     That is where the commands of docs/guides/other_tools.md run.
     """
-    compiler = os.environ.get("CXX", "c++")
-    if shutil.which(compiler) is None:
-        pytest.skip("no C++ compiler here")
     folder = tmp_path_factory.mktemp("beside")
     (folder / "stickslip").symlink_to(ROOT)
-    cache = [path] if (path := shutil.which("ccache")) else []
-    flags = ["-std=c++20", "-O0", "-fPIC", f"-I{ROOT / 'include'}"]
-    source = ROOT / "src" / "stickslip.cpp"
-    subprocess.run(
-        [*cache, compiler, *flags, "-c", source, "-o", folder / "stickslip.o"], check=True
-    )
+    compile_for_c("stickslip.cpp", folder / "stickslip.o")
     return folder
 
 

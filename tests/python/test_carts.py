@@ -249,7 +249,6 @@ def test_what_is_no_support_is_refused():
 
 def test_what_is_not_known_of_carts_is_refused():
     for call in (
-        lambda: ss.histories(CART, QUAKE),
         lambda: PLAIN.sensitivity("scale"),
         lambda: PLAIN.effective_period,
         lambda: ss.response_spectrum(PLAIN, [1.0]),
@@ -499,3 +498,28 @@ def test_values_computed_apart_from_this_library(entry):
     assert r.peak_outline == pytest.approx(float(value["peak_corner"]), abs=within)
     assert r.energy.dissipated == pytest.approx(float(value["friction"]), abs=within)
     assert r.rests == value["rests"]
+
+
+def test_fragility_of_the_worst_corner_and_of_a_wall(pyslammer_files):
+    pytest.importorskip("scipy")
+    quakes = [
+        ss.GroundMotion(m.acceleration, dt=m.dt, transverse=0.6 * np.roll(m.acceleration, 40))
+        for m in ss.sample_records()
+    ]
+    stripes = ss.Suite(quakes).stripes(pga_g=[0.02, 0.05, 0.1, 0.2, 0.4, 0.8])
+    table = ss.sweep(CART, stripes, settle=True, walls=[((0.43, 0), (0, 1))])
+    f = ss.Fragility.fit(table, im="pga_g", thresholds=[0.01, 0.03], quantity="peak_outline")
+    assert f.labels == ("0.01 m", "0.03 m")
+    assert f.im_directions == "rotd50"
+    levels, fractions = f.fractions()
+    stripe = table.metadata["stripe"]
+    counted = [np.mean(table.peak_outline[0, stripe == at] > 0.03) for at in levels]
+    assert fractions[1] == pytest.approx(counted)
+    walls = ss.Fragility.fit(table, im="pga_g", thresholds=ss.impact)
+    reached = [np.isfinite(table.hit_time[0, stripe == at]).mean() for at in levels]
+    assert walls.fractions()[1][0] == pytest.approx(reached)
+    assert 0 < reached[3] < 1
+    with pytest.raises(ValueError, match="needs a sweep of carts with walls"):
+        ss.Fragility.fit(ss.sweep(CART, stripes), im="pga_g", thresholds=ss.impact)
+    with pytest.raises(ValueError, match="must be one of 'peak', 'peak_outline'"):
+        ss.Fragility.fit(table, im="pga_g", thresholds=0.1, quantity="residual")

@@ -45,10 +45,15 @@ SLIDERS = {
 }
 
 
+MODELS = ("slider", "bearing", "cart")
+
+
 @pytest.fixture(scope="module")
-def files(run_page):
+def files(beside_source, compile_for_c, run_page):
+    for name in ("acceleration", "c_interface", "cart", "integrate"):
+        compile_for_c(f"carts/{name}.cpp", beside_source / f"{name}.o")
     folder = run_page("examples/fmu/build.py")
-    return {model: folder / f"{model}.fmu" for model in ("slider", "bearing")}
+    return {model: folder / f"{model}.fmu" for model in MODELS}
 
 
 @pytest.fixture
@@ -145,7 +150,48 @@ def test_a_step_can_be_repeated(slave, record_a):
         assert step(fmu, k * DT, (record_a[k], 0), (record_a[k + 1], 0)) == first
 
 
-@pytest.mark.parametrize("model", ["slider", "bearing"])
+def test_a_cart_moves_as_integrate_moves_it(files, record_a):
+    n, t, up = record_a, 0.7 * np.roll(record_a, 30), 0.5 * np.roll(record_a, 11)
+    headings, length, width = (0.3, 2.0, -2.5, -0.7), 0.7, 0.5
+    supports = [
+        ss.SwivelCaster(
+            at=(x * length / 2, y * width / 2), heading=h, slip_level=0.08 * G, reach=0.03,
+            rolling_mu=0.02,
+        )
+        for h, (x, y) in zip(headings, [(1, 1), (1, -1), (-1, 1), (-1, -1)])
+    ]  # fmt: skip
+    supports[3] = ss.Foot(at=supports[3].at, mu=0.15)
+    cart = ss.Cart(supports, radius_of_gyration=0.3)
+    names = ("ground_acceleration", "vertical_acceleration", "transverse_acceleration")
+    time = DT * np.arange(len(n))
+    outputs = ["displacement", "transverse_displacement", "yaw", "velocity", "yaw_rate"]
+    result = fmpy.simulate_fmu(
+        files["cart"],
+        stop_time=time[60],
+        output_interval=DT,
+        start_values={
+            **{f"heading_{i + 1}": h for i, h in enumerate(headings)},
+            "length": length,
+            "width": width,
+            "radius_of_gyration": 0.3,
+            "side_mu": 0.08,
+            "reach": 0.03,
+            "rolling_mu": 0.02,
+            "locked_4": 1.0,
+            "locked_mu": 0.15,
+        },
+        input=np.array(list(zip(time, n, up, t)), dtype=[(x, float) for x in ("time", *names)]),
+        output=outputs,
+    )
+    ground = ss.GroundMotion(n, dt=DT, transverse=t, vertical=up, interpolation="constant")
+    r = ss.integrate(cart, ground)
+    assert np.abs(r.yaw).max() > 0.01
+    # Feet are exact to 1e-9; FMPy adds up its times.
+    for name, is_now in zip(outputs, (*r.displacement.T, r.yaw, r.velocity[:, 0], r.yaw_rate)):
+        assert result[name] == pytest.approx(is_now[:61], abs=1e-8), name
+
+
+@pytest.mark.parametrize("model", MODELS)
 def test_the_description_is_valid_and_has_the_start_values_of_the_binary(files, slave, model):
     assert fmpy.validation.validate_fmu(str(files[model])) == []
     fmu, of = slave(model, {})
@@ -161,6 +207,14 @@ def test_errors_say_what_is_wrong(slave, capfd):
     fmu, _ = slave("bearing", {"radius": 0.0})
     with pytest.raises(FMICallException):
         fmu.exitInitializationMode()
+    for model, wrong in (
+        ("slider", {"mass": 0.0}),
+        ("cart", {"locked_2": 0.5}),
+        ("cart", {"reach": 0.0}),
+    ):
+        fmu, _ = slave(model, wrong)
+        with pytest.raises(FMICallException):
+            fmu.exitInitializationMode()
     fmu, of = slave("slider", {})
     fmu.exitInitializationMode()
     for name in "mu", "displacement":
@@ -172,4 +226,7 @@ def test_errors_say_what_is_wrong(slave, capfd):
     said = "".join(capfd.readouterr())
     assert "slip_level" in said
     assert "radii" in said
+    assert "mass must be positive" in said
+    assert "locked must be 0 or 1" in said
+    assert "reach" in said
     assert "parameters are fixed" in said

@@ -24,6 +24,36 @@ def test_histories_are_those_of_integrate(slider, samples):
     assert np.abs(v - response.velocity).max() <= room * (1e-300 + np.abs(v).max())
 
 
+def test_histories_of_blocks_and_carts_are_those_of_integrate():
+    rng = np.random.default_rng(1)
+    n, t = rng.normal(0, 3, (2, 400))
+    motion = ss.GroundMotion(n, dt=0.05, transverse=t)
+    for block in (
+        ss.SlenderBlock(p=2, alpha=0.3, restitution=0.8),
+        ss.RockingBlock(width=0.6, height=1.5, mu=0.6),
+    ):
+        response = ss.integrate(block, motion)
+        rotation, rate = ss.histories(block, motion)
+        assert response.impacts > 5
+        assert np.array_equal(rotation, response.rotation)
+        assert np.array_equal(rate, response.rate)
+    feet = [
+        ss.Foot(at=at, mu=mu)
+        for at, mu in [((0.5, 0.3), 0.1), ((-0.5, 0.3), 0.2), ((0, -0.6), 0.3)]
+    ]
+    cart = ss.Cart(supports=feet, radius_of_gyration=0.4)
+    response = ss.integrate(cart, motion)
+    place, rate = ss.histories(cart, motion)
+    assert place.shape == rate.shape == (400, 3)
+    assert np.abs(response.yaw).max() > 1e-3
+    assert np.array_equal(place[:, :2], response.displacement)
+    assert np.array_equal(place[:, 2], response.yaw)
+    assert np.array_equal(rate[:, :2], response.velocity)
+    assert np.array_equal(rate[:, 2], response.yaw_rate)
+    with pytest.raises(TypeError, match="histories: the motion of a block"):
+        ss.histories(block, [1.0, 2.0])
+
+
 def test_the_arrays_outlive_everything_and_are_read_only():
     x, v = ss.histories(ss.Coulomb(slip_level=1), shaking(9000))
     assert x[-1] == ss.histories(ss.Coulomb(slip_level=1), shaking(9000))[0][-1]

@@ -435,6 +435,26 @@ def test_the_amplitudes_of_the_page_overturn():
             assert (ss.integrate(UNIT, half, settle=True).overturned == "right") == falls
 
 
+def energy_envelope(d, r, times, cells=400):
+    """The probability that the averaged energy has reached 1/2, by its backward equation."""
+    integrate = pytest.importorskip("scipy.integrate")
+    s, h = np.arange(1, cells) / cells, 1 / cells
+    period = 2 * np.arctanh(s)
+    drift = d - (1 - r**2) * (s**2 / 2) / period
+    diffusion = d * (s - (1 - s**2) * np.arctanh(s)) / period
+    # By s instead of H = s^2/2; at s = 0 nothing flows.
+    first, second = drift / s - diffusion / s**3, diffusion / s**2
+
+    def change(_, u):
+        u = np.concatenate([u[:1], u, [1.0]])
+        return first * (u[2:] - u[:-2]) / (2 * h) + second * np.diff(u, 2) / h**2
+
+    found = integrate.solve_ivp(
+        change, (0, times[-1]), np.zeros(cells - 1), "BDF", times, rtol=1e-7, atol=1e-9
+    )
+    return found.y[0]
+
+
 @pytest.mark.slow
 def test_the_probabilities_of_the_page_are_those_of_the_test():
     found = next(t for t in page_tables() if t[0][0] == "p t")
@@ -442,7 +462,9 @@ def test_the_probabilities_of_the_page_are_those_of_the_test():
         [float(cell) for cell in row[1:]] for row in (found[0], *found[2:])
     )
     assert times == [20, 40, 60, 100]
+    *simulated, envelope = simulated
     assert list(zip(*simulated))[1:] == PUBLISHED
+    assert envelope == pytest.approx(energy_envelope(0.02, 0.9, times), abs=6e-5)
     block, p = ss.SlenderBlock(p=2, alpha=0.2, restitution=0.9), 2
     s0 = 0.02 * (block.alpha * ss.STANDARD_GRAVITY) ** 2 / (np.pi * p)
     transport = ss.theory.Transport(tolerance=0.03)
@@ -489,11 +511,37 @@ def test_fragility_of_overturning(pyslammer_files):
         np.mean(table.overturned[0, table.metadata["stripe"] == level] != 0) for level in levels
     ]
     assert fractions[0] == pytest.approx(counted)
-    with pytest.raises(ValueError, match=r"thresholds must be ss\.overturning"):
-        ss.Fragility.fit(table, im="pga_g", thresholds=0.1)
+    with pytest.raises(ValueError, match="a block has no stop"):
+        ss.Fragility.fit(table, im="pga_g", thresholds=ss.impact)
     with pytest.raises(ValueError, match="needs a sweep of blocks that rock"):
         slid = ss.sweep(ss.Coulomb(mu=0.2), stripes)
         ss.Fragility.fit(slid, im="pga_g", thresholds=ss.overturning)
     scaled = ss.sweep(block, stripes, scale=[1, 2])
-    with pytest.raises(ValueError, match="needs a sweep with one scale, got 2"):
-        ss.Fragility.fit(scaled, im="pga_g", thresholds=ss.overturning)
+    for thresholds in (ss.overturning, 0.5):
+        with pytest.raises(ValueError, match="needs a sweep with one scale, got 2"):
+            ss.Fragility.fit(scaled, im="pga_g", thresholds=thresholds)
+
+
+def test_fragility_of_the_peak_counts_what_overturns(pyslammer_files):
+    pytest.importorskip("scipy")
+    stripes = ss.sample_records().stripes(pga_g=[0.1, 0.2, 0.4, 0.8, 1.6])
+    table = ss.sweep(ss.SlenderBlock(p=3, alpha=0.2, restitution=0.9), stripes, settle=True)
+    f = ss.Fragility.fit(table, im="pga_g", thresholds=[0.2, 0.8])
+    assert f.labels == ("0.2 alpha", "0.8 alpha")
+    assert f.to_dataframe().attrs["units"]["threshold"] == "alpha"
+    overturned = ss.Fragility.fit(table, im="pga_g", thresholds=ss.overturning)
+    assert f.median[0] < f.median[1] < overturned.median[0]
+    levels, fractions = f.fractions()
+    for level, some in zip((0.2, 0.8), fractions):
+        counted = [
+            np.mean(table.peak_rotation_ratio[0, table.metadata["stripe"] == at] > level)
+            for at in levels
+        ]
+        assert some == pytest.approx(counted)
+    assert fractions[1, -1] > 0.5  # most of it overturns
+    with pytest.raises(ValueError, match="blocks that overturn have no finite peak"):
+        ss.Fragility.fit(table, im="pga_g", thresholds=0.2, method="cloud", censored_below=0.01)
+    with pytest.raises(ValueError, match="quantity must be one of 'peak', got 'residual'"):
+        ss.Fragility.fit(table, im="pga_g", thresholds=0.2, quantity="residual")
+    with pytest.raises(ValueError, match="got -1 alpha"):
+        ss.Fragility.fit(table, im="pga_g", thresholds=-1)

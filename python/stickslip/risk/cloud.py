@@ -35,7 +35,7 @@ class Cloud:
     ----------
     data : Observations
     censored_below : float
-        Displacement [m].
+        Demand, in its unit.
     """
 
     def __init__(self, data: Observations, censored_below: float) -> None:
@@ -53,10 +53,15 @@ class Cloud:
         if not 0 < censored_below < data.levels.min():
             raise ValueError(
                 "Fragility.fit: censored_below must be positive and below the lowest threshold,"
-                f" {data.levels.min():g} m, got {censored_below:g} m"
+                f" {data.levels.min():g} {data.unit}, got {censored_below:g} {data.unit}"
             )
         self.censor = math.log(censored_below)
-        d = data.displacement
+        d = data.demand
+        if np.isinf(d).any():
+            raise ValueError(
+                "Fragility.fit: blocks that overturn have no finite peak for method='cloud'; use"
+                " 'lognormal' or 'logit'"
+            )
         valid, sliding = np.isfinite(d), d > 0
         seen = sliding & (d >= censored_below)
         y = np.log(np.where(seen, d, 1.0))

@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 from .._numbers import real
 from .._tables import Columns
 from .._tabular import Tabular
-from ..sweeps.table import SweepTable
 from .cloud import Cloud
-from .observations import Measure, observe
+from .observations import DemandTable, Measure, observe
 
 __all__ = ["IntensityEfficiency", "intensity_efficiency"]
 
@@ -56,7 +55,7 @@ class IntensityEfficiency(Tabular):
 
 
 def intensity_efficiency(
-    table: SweepTable,
+    table: DemandTable,
     measures: Sequence[Measure] = ("pga_g", "pgv", "arias", "cav"),
     *,
     periods: Sequence[float] = (0.3, 1.0, 2.0),
@@ -70,7 +69,7 @@ def intensity_efficiency(
 
     Parameters
     ----------
-    table : SweepTable
+    table : SweepTable, RockingTable or CartTable
         Responses of one slider, or of draws of a random one, to ground motions of different
         intensities: a suite as it is, or stripes.
     measures : list of str or callable, optional

@@ -129,12 +129,12 @@ class Exceedance:
         self.link = Link(method)
         self.levels = Levels(data)
         self.x = self.levels.x
-        valid = np.isfinite(data.displacement)
+        valid = ~np.isnan(data.demand)
         # Of each draw and motion, over polarities.
         self.count = valid.sum(axis=2).astype(float)
-        self.hits = np.stack(
-            [(data.displacement > level).sum(axis=2) for level in data.levels]
-        ).astype(float)
+        self.hits = np.stack([(data.demand > level).sum(axis=2) for level in data.levels]).astype(
+            float
+        )
         self.check()
         self._n = self.levels.table(self.count.sum(axis=0))
         self._k = [self.levels.table(hits.sum(axis=0)) for hits in self.hits]
@@ -151,7 +151,7 @@ class Exceedance:
         steps = []
         for label, hits in zip(data.labels, self.hits):
             found = hits.sum()
-            events = {"impact": "hit a stop", "overturning": "overturn"}
+            events = {"impact": "hit", "overturning": "overturn"}
             what = events.get(label, f"exceed {label}")
             if found in (0, total):
                 share, other = ("none", "higher") if found == 0 else ("all", "lower")

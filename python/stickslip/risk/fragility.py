@@ -18,12 +18,10 @@ from .._tables import Columns
 from .._tabular import Tabular
 from ..motions.intensity import OF_DIRECTIONS
 from ..regressions import RangeWarning
-from ..rocking.sweep import RockingTable
 from ..runs.progress import Progress, shown
-from ..sweeps.table import SweepTable
 from .cloud import Cloud
 from .exceedance import Exceedance
-from .observations import Event, Measure, Observations, observe
+from .observations import DemandTable, Event, Measure, Observations, observe
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -70,7 +68,7 @@ class Fragility(Tabular):
     Attributes
     ----------
     thresholds : tuple
-        Displacements [m], or `ss.impact` or `ss.overturning`.
+        Displacements [m], of blocks that rock |theta|/alpha; or `ss.impact` or `ss.overturning`.
     median : ndarray, shape (T,)
         Intensity at which the probability of exceedance is one half, in `im_unit`.
     beta : ndarray, shape (T,)
@@ -86,7 +84,7 @@ class Fragility(Tabular):
         dispersion `beta`, is 1 %.
     method : {'lognormal', 'logit', 'cloud'}
     quantity : str
-        The displacement that exceeds the thresholds.
+        What exceeds the thresholds.
     im, im_unit : str
         Name and unit of the intensity measure.
     im_period : float or None
@@ -150,7 +148,7 @@ class Fragility(Tabular):
     @classmethod
     def fit(
         cls,
-        table: SweepTable | RockingTable,
+        table: DemandTable,
         im: Measure,
         thresholds: float | Event | Sequence[float | Event],
         *,
@@ -169,7 +167,7 @@ class Fragility(Tabular):
 
         Parameters
         ----------
-        table : SweepTable or RockingTable
+        table : SweepTable, RockingTable or CartTable
             All sliders count as equally likely draws: of a `Random`, or one slider. Polarities and
             draws of one record, and its stripes, are not independent; they belong to one record,
             by the column `record` of the metadata if there is one.
@@ -180,10 +178,12 @@ class Fragility(Tabular):
             is RotD50, the median over all directions; of stripes, whatever `stripes` scaled:
             `im_directions` says which.
         thresholds : float, list of float, ss.impact, or ss.overturning
-            Displacements [m], positive, increasing; or hitting a stop; or, of a RockingTable of one
-            scale, overturning, which need not grow with the intensity: the counts stand beside.
-        quantity : {'peak', 'residual', 'sliding_distance'}
-            The displacement.
+            Displacements [m], of blocks that rock |theta|/alpha, positive, increasing; or hitting a
+            stop or a wall; or overturning, which need not grow with the intensity: the counts stand
+            beside. A block that overturns exceeds every |theta|/alpha.
+        quantity : {'peak', 'residual', 'sliding_distance', 'peak_outline'}
+            The displacement. Of blocks 'peak'; of carts 'peak', of the center, or 'peak_outline',
+            of the corner that moved farthest.
         separate : bool, optional
             Fit a dispersion for each threshold. By default they share one, so that the curves of
             different thresholds do not cross, and a test says where the responses contradict it.
@@ -231,7 +231,7 @@ class Fragility(Tabular):
         -----
         Newton's method, to 1e-9. 72,000 responses with three thresholds take about 50 ms.
         """
-        if not isinstance(table, (SweepTable, RockingTable)):
+        if not isinstance(table, DemandTable):
             raise TypeError(
                 f"Fragility.fit: table must be a SweepTable, as sweep returns it, got"
                 f" {type(table).__name__}"
@@ -567,8 +567,8 @@ class Fragility(Tabular):
         fractions : ndarray, shape (T, L)
         """
         levels, place = np.unique(self._data.im, return_inverse=True)
-        d = self._data.displacement
-        count = np.bincount(place.reshape(-1), np.isfinite(d).sum(axis=(0, 2)))
+        d = self._data.demand
+        count = np.bincount(place.reshape(-1), (~np.isnan(d)).sum(axis=(0, 2)))
         hits = [
             np.bincount(place.reshape(-1), (d > level).sum(axis=(0, 2)))
             for level in self._data.levels
@@ -598,7 +598,7 @@ class Fragility(Tabular):
             "im_directions": np.full(len(self.thresholds), self.im_directions),
             "method": np.full(len(self.thresholds), self.method),
         }
-        units = {"threshold": "m" if numbers else "", "median": self.im_unit, "hclpf": self.im_unit}
+        units = {"threshold": self._data.unit, "median": self.im_unit, "hclpf": self.im_unit}
         return columns, units
 
     def __repr__(self) -> str:

@@ -14,11 +14,13 @@ from numpy.typing import NDArray
 
 from .._core import GroundMotion, to_vector
 from .._numbers import real
+from ..carts.sweep import CartTable
 from ..motions.intensity import DIRECTIONS, LEVEL_UNITS, level_of
 from ..rocking.sweep import RockingTable
 from ..sweeps.table import SweepTable
 
 __all__ = [
+    "DemandTable",
     "Event",
     "Measure",
     "Observations",
@@ -49,6 +51,7 @@ _NO_INTENSITIES = ("year", "stripe", "factor", "sa_period", "latitude", "longitu
 _FUNCTION = "function of the motion"
 _SPECTRAL = re.compile(r"sa(?:_g)?\(\s*(\d*\.?\d+(?:e-?\d+)?)\s*s?\s*\)", re.IGNORECASE)
 
+DemandTable: TypeAlias = SweepTable | RockingTable | CartTable
 Measure: TypeAlias = str | Callable[[GroundMotion], float]
 
 
@@ -63,9 +66,11 @@ class Observations:
     im_name, im_unit, im_directions : str
     record : ndarray of int, shape (M,)
         Number of the record of each motion, from 0 to R - 1.
-    displacement : ndarray, shape (J, M, P)
-        Of each draw, motion and polarity [m]; NaN for failures. With `impact` 1 for a response that
-        hits a stop, otherwise 0; with `overturning` for a block that overturns.
+    demand : ndarray, shape (J, M, P)
+        Of each draw, motion and polarity, in `unit`: NaN for failures, infinite for a block that
+        overturns. With `impact` 1 for a response that hits a stop or a wall, otherwise 0; with
+        `overturning` for a block that overturns.
+    unit : str
     thresholds : tuple of float or Event
     """
 
@@ -75,7 +80,8 @@ class Observations:
     im_period: float | None
     im_directions: str
     record: NDArray[np.intp]
-    displacement: NDArray[np.float64]
+    demand: NDArray[np.float64]
+    unit: str
     thresholds: tuple[float | Event, ...]
 
     @property
@@ -87,7 +93,8 @@ class Observations:
     def labels(self) -> tuple[str, ...]:
         """The thresholds as text."""
         return tuple(
-            one.value if isinstance(one, Event) else f"{one:.6g} m" for one in self.thresholds
+            one.value if isinstance(one, Event) else f"{one:.6g} {self.unit}"
+            for one in self.thresholds
         )
 
 
@@ -101,7 +108,7 @@ class Measured(NamedTuple):
     directions: str = ""  # over which it is taken; unknown of columns and functions of users
 
 
-def measured(table: SweepTable | RockingTable, im: Measure, who: str) -> Measured:
+def measured(table: DemandTable, im: Measure, who: str) -> Measured:
     """The intensity measure of each motion.
 
     Raises
@@ -130,9 +137,7 @@ def measured(table: SweepTable | RockingTable, im: Measure, who: str) -> Measure
     return found
 
 
-def _by_function(
-    table: SweepTable | RockingTable, im: Callable[[GroundMotion], float], who: str
-) -> Measured:
+def _by_function(table: DemandTable, im: Callable[[GroundMotion], float], who: str) -> Measured:
     if not table.motions:
         raise ValueError(
             f"{who}: a function of a motion needs the ground motions, which a table from a file"
@@ -143,7 +148,7 @@ def _by_function(
     return Measured(values, _FUNCTION if name == "<lambda>" else name, "")
 
 
-def _by_name(table: SweepTable | RockingTable, im: str, who: str) -> Measured:
+def _by_name(table: DemandTable, im: str, who: str) -> Measured:
     spectral = _SPECTRAL.fullmatch(im)
     name, period = ("sa_g", float(spectral[1])) if spectral else (im, None)
     unit = LEVEL_UNITS.get(name, "")
@@ -175,19 +180,19 @@ def _by_name(table: SweepTable | RockingTable, im: str, who: str) -> Measured:
     )
 
 
-def _numbers(table: SweepTable | RockingTable, name: str) -> NDArray[np.float64] | None:
+def _numbers(table: DemandTable, name: str) -> NDArray[np.float64] | None:
     """A column of numbers, or None."""
     column = table.metadata.get(name)
     return None if column is None or column.dtype.kind not in "iuf" else np.array(column, float)
 
 
-def _period(table: SweepTable | RockingTable, name: str) -> float | None:
+def _period(table: DemandTable, name: str) -> float | None:
     """The period of a column, which stripes of pseudo-accelerations state."""
     at = _numbers(table, "sa_period") if name == "sa_g" else None
     return None if at is None else float(at[0])
 
 
-def _directions(table: SweepTable | RockingTable) -> str:
+def _directions(table: DemandTable) -> str:
     """What the measures of the motions are of: those of stripes, otherwise RotD50 in the plane."""
     stated = table.metadata.get("directions")
     if stated is not None:
@@ -196,7 +201,7 @@ def _directions(table: SweepTable | RockingTable) -> str:
     return "rotd50" if table.planar and pairs else "axis"
 
 
-def _striped(table: SweepTable | RockingTable) -> Measured | None:
+def _striped(table: DemandTable) -> Measured | None:
     """The measure of which stripes are levels, or None."""
     stripe = _numbers(table, "stripe")
     if stripe is None:
@@ -210,7 +215,7 @@ def _striped(table: SweepTable | RockingTable) -> Measured | None:
     return None  # a column `pga_g` holds it
 
 
-def records_of(table: SweepTable | RockingTable) -> NDArray[np.intp]:
+def records_of(table: DemandTable) -> NDArray[np.intp]:
     """The number of the record of each motion, by the column `record` if there is one."""
     names = table.metadata.get("record")
     if names is None:
@@ -219,7 +224,7 @@ def records_of(table: SweepTable | RockingTable) -> NDArray[np.intp]:
 
 
 def observe(
-    table: SweepTable | RockingTable,
+    table: DemandTable,
     im: Measure,
     thresholds: float | Event | Sequence[float | Event],
     quantity: str,
@@ -244,13 +249,13 @@ def observe(
         if len(given) > 1:
             raise ValueError(f"{who}: {given[0]!r} is a threshold on its own, got {len(given)}")
         limits: tuple[float | Event, ...] = given
+        unit = ""
         response = (_fell if given[0] is overturning else _hit)(table, who)
     else:
-        if isinstance(table, RockingTable):
-            raise ValueError(f"{who}: of blocks that rock, thresholds must be ss.overturning")
         limits = tuple(to_vector(given, f"{who}: thresholds").tolist())
-        response = np.abs(getattr(table, _quantity(table, quantity, who)))
-        _check_thresholds(table, limits, quantity, who)
+        name, unit = _quantity(table, quantity, who)
+        response = np.abs(_of_one_scale(table, getattr(table, name), who))
+        _check_thresholds(table, limits, quantity, unit, who)
     failed = int(np.isnan(response).sum())
     if failed == response.size:
         raise ValueError(f"{who}: all {failed} responses failed")
@@ -267,36 +272,60 @@ def observe(
         im_period=found.period,
         im_directions=found.directions,
         record=records_of(table),
-        displacement=response,
+        demand=response,
+        unit=unit,
         thresholds=limits,
     )
 
 
-def _quantity(table: SweepTable, quantity: str, who: str) -> str:
-    if quantity not in ("peak", "residual", "sliding_distance"):
-        raise ValueError(
-            f"{who}: quantity must be 'peak', 'residual' or 'sliding_distance', got {quantity!r}"
-        )
-    return quantity
+# What a table holds that thresholds may be of, by the name of the quantity: its attribute and unit.
+_SLIDING = {name: (name, "m") for name in ("peak", "residual", "sliding_distance")}
+_ROCKING = {"peak": ("peak_rotation_ratio", "alpha")}
+_ROLLING = {"peak": ("peak", "m"), "peak_outline": ("peak_outline", "m")}
 
 
-def _fell(table: SweepTable | RockingTable, who: str) -> NDArray[np.float64]:
-    """1 for each response that overturns, 0 for the others, NaN for failures."""
-    if not isinstance(table, RockingTable):
-        raise ValueError(f"{who}: overturning needs a sweep of blocks that rock")
+def _quantity(table: DemandTable, quantity: str, who: str) -> tuple[str, str]:
+    """The attribute of a table, and its unit."""
+    known = _SLIDING
+    if not isinstance(table, SweepTable):
+        known = _ROCKING if isinstance(table, RockingTable) else _ROLLING
+    if quantity not in known:
+        names = ", ".join(map(repr, known))
+        raise ValueError(f"{who}: quantity must be one of {names}, got {quantity!r}")
+    return known[quantity]
+
+
+def _of_one_scale(table: DemandTable, values: NDArray[Any], who: str) -> NDArray[Any]:
+    """Values of shape (draws, motions, polarities, ...)."""
+    if isinstance(table, SweepTable):
+        return values
     if len(table.scale) != 1:
         raise ValueError(
             f"{who}: needs a sweep with one scale, got {len(table.scale)}; scale the records:"
             " suite.stripes(pga_g=[0.1, 0.2, 0.4])"
         )
+    return values[:, :, 0]
+
+
+def _fell(table: DemandTable, who: str) -> NDArray[np.float64]:
+    """1 for each response that overturns, 0 for the others, NaN for failures."""
+    if not isinstance(table, RockingTable):
+        raise ValueError(f"{who}: overturning needs a sweep of blocks that rock")
     fell = np.where(np.isnan(table.peak_rotation), np.nan, table.overturned != 0)
-    return fell[:, :, 0, :]
+    return _of_one_scale(table, fell, who)
 
 
-def _hit(table: SweepTable | RockingTable, who: str) -> NDArray[np.float64]:
-    """1 for each response that hits a stop, 0 for the others, NaN for failures."""
+def _hit(table: DemandTable, who: str) -> NDArray[np.float64]:
+    """1 for each response that hits a stop or a wall, 0 for the others, NaN for failures."""
     if isinstance(table, RockingTable):
-        raise ValueError(f"{who}: of blocks that rock, thresholds must be ss.overturning")
+        raise ValueError(
+            f"{who}: a block has no stop: thresholds are of |theta|/alpha, or ss.overturning"
+        )
+    if isinstance(table, CartTable):
+        if not len(table.walls):
+            raise ValueError(f"{who}: impact needs a sweep of carts with walls, and it has none")
+        reached = np.isfinite(table.hit_time).any(axis=-1)
+        return _of_one_scale(table, np.where(np.isnan(table.peak), np.nan, reached), who)
     without = int((~np.isfinite(table.stop_distance)).sum())
     if without == table.stop_distance.size:
         raise ValueError(f"{who}: impact needs sliders with stops, and none has any")
@@ -313,13 +342,15 @@ def _hit(table: SweepTable | RockingTable, who: str) -> NDArray[np.float64]:
 
 
 def _check_thresholds(
-    table: SweepTable, thresholds: tuple[Any, ...], quantity: str, who: str
+    table: DemandTable, thresholds: tuple[Any, ...], quantity: str, unit: str, who: str
 ) -> None:
     for one in thresholds:
         if not (np.isfinite(one) and one > 0):
-            raise ValueError(f"{who}: a threshold must be positive and finite, got {one:g} m")
+            raise ValueError(f"{who}: a threshold must be positive and finite, got {one:g} {unit}")
     if np.any(np.diff(thresholds) <= 0):
         raise ValueError(f"{who}: thresholds must increase, got {', '.join(map(str, thresholds))}")
+    if not isinstance(table, SweepTable):
+        return
     nearest = table.stop_distance.min()
     if quantity != "sliding_distance" and thresholds[-1] >= nearest:
         raise ValueError(
