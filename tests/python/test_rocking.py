@@ -497,6 +497,26 @@ def test_the_command_prints_what_the_library_finds(pyslammer_files, capsys, tmp_
     assert "give --width and --height, or --p and --alpha" in capsys.readouterr().err
 
 
+def test_a_block_on_an_isolated_floor_rests_below_its_bound(pyslammer_files):
+    mu, radius = 0.05, 2.0
+    lifted = 0
+    for quake in ss.sample_records()[:6]:
+        quake = 0.3 * quake  # angles stay small
+        below = ss.integrate(ss.FrictionPendulum(mu=mu, radius=radius), quake)
+        floor = ss.GroundMotion(-below.force, dt=quake.dt)
+        most = np.abs(below.force).max() / G
+        bound = mu + below.peak / radius
+        assert most <= bound * (1 + 1e-12)
+        for level, rocks in ((1.0001 * bound, False), (0.98 * most, True)):
+            block = ss.SlenderBlock(
+                p=2, alpha=level, restitution=0.8
+            )  # alpha stands for its tangent
+            r = ss.integrate(block, floor)
+            assert (r.uplifts > 0) == rocks
+            lifted += rocks
+    assert lifted == 6
+
+
 def test_fragility_of_overturning(pyslammer_files):
     pytest.importorskip("scipy")
     stripes = ss.sample_records().stripes(pga_g=[0.1, 0.2, 0.4, 0.8, 1.6])
