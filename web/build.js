@@ -70,7 +70,8 @@ const parts = {
   LIBRARY: packed(readFileSync(new URL("stickslip.wasm", build))),
   SAMPLE: sample ? packed(sample) : "",
   WORKER: packed(Buffer.from(bundled("worker.js"))),
-  PAGE: inScript(bundled("main.js")),
+  PAGE: packed(Buffer.from(bundled("main.js"))),
+  LOADER: inScript(bundled("loader.js")),
 };
 
 let html = text(new URL("page.html", page));

@@ -1,13 +1,11 @@
 // What the page holds and who follows its changes: settings, units, records, and the response that it shows.
 
-import { decompress } from "fzstd";
-
 import { startWorker } from "./client.js";
 import { element } from "./dom.js";
-import { fromText } from "./packed.js";
 import { completed, fromLink, toLink } from "./settings.js";
 import { GENERATORS } from "./sources.js";
 
+/** @import { Unpack } from "./loader.js" */
 /** @import { Range, Settings } from "./library.js" */
 /** @import { Stated } from "./metadata.js" */
 /** @import { Source } from "./sources.js" */
@@ -18,11 +16,7 @@ export const GRAVITY = 9.80665;
 
 export const NO_COMMAND = "The command has no option for this; the lines in Python give the same numbers.";
 
-/** What the page holds packed; empty if nothing. @param {string} id */
-export const unpacked = (id) => {
-  const text = (element(id).textContent ?? "").trim();
-  return /** @type {Uint8Array<ArrayBuffer>} */ (text ? decompress(fromText(text)) : new Uint8Array());
-};
+export const unpacked = /** @type {{unpacked: Unpack}} */ (/** @type {unknown} */ (globalThis)).unpacked;
 
 export const worker = startWorker(new TextDecoder().decode(unpacked("worker")));
 
