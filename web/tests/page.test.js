@@ -1,110 +1,30 @@
 // The page in a headless Chromium: its numbers against the native library's, and what its reader does.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
-import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { after, before, beforeEach, test } from "node:test";
+import { readFileSync, statSync, writeFileSync } from "node:fs";
+import { test } from "node:test";
 import { basename, resolve } from "node:path";
-import { fileURLToPath } from "node:url";
 
-/** @import { Browser, Page } from "puppeteer-core" */
-
-const build = new URL("../../build/web/", import.meta.url);
-const samples = fileURLToPath(new URL("samples/", build));
-const screenshots = fileURLToPath(new URL("screenshots/", build));
-const address = new URL("stickslip.html", build).href;
-const puppeteer = createRequire(new URL("package.json", build))("puppeteer-core");
-const answers = JSON.parse(readFileSync(`${samples}answers.json`, "utf8"));
-const python = process.env.PYTHON ?? "python";
-
-/** @type {Browser} */
-let browser;
-/** @type {Page} */
-let page;
-/** What must not happen. @type {string[]} */
-let complaints = [];
-
-before(async () => {
-  mkdirSync(screenshots, { recursive: true });
-  browser = await puppeteer.launch({
-    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-    args: ["--no-sandbox", "--disable-gpu"],
-  });
-});
-after(() => browser?.close());
-
-beforeEach(async () => {
-  complaints = [];
-  await page?.close();
-  page = await browser.newPage();
-  page.on("console", (message) => complaints.push(`console: ${message.text()}`));
-  page.on("pageerror", (error) => complaints.push(`error: ${/** @type {Error} */ (error).message}`));
-  page.on("request", (request) => {
-    if (!/^(data|blob):/.test(request.url()) && request.url().split("#")[0] !== address)
-      complaints.push(`request: ${request.url()}`);
-  });
-});
-
-/** @param {string} [settings]  @param {string} [state]  in which it ends */
-async function open(settings = "", state = "shown") {
-  await page.setViewport({ width: 1280, height: 900 });
-  await page.goto("about:blank");
-  await page.goto(`${address}#${settings}`);
-  await settled(state);
-}
-
-/** Waits until the page shows what belongs to its settings. */
-const settled = (state = "shown") =>
-  page.waitForFunction((wanted) => document.body.dataset.state === wanted, { timeout: 60_000 }, state);
-
-/** Drops files on the page, as from a file manager. @param {...string} names  in the folder of samples, or with their own */
-async function drop(...names) {
-  const contents = names.map((name) => [basename(name), readFileSync(resolve(samples, name)).toString("base64")]);
-  await page.evaluate((files) => {
-    const transfer = new DataTransfer();
-    for (const [name = "", base64 = ""] of files)
-      transfer.items.add(new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], name));
-    document.body.dataset.state = "busy";
-    document.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
-  }, contents);
-  await page.waitForFunction(() => document.querySelector("#progress")?.textContent === "", { timeout: 60_000 });
-  await settled();
-}
-
-/** Waits for the path in the plane of the present settings. */
-const pathShown = () => page.waitForFunction(() => document.querySelector("#figure-path[data-state=shown]"), { timeout: 60_000 });
-
-/** A table, in SI units. @returns {Promise<Record<string, number>>} */
-const table = async (id = "numbers") =>
-  Object.fromEntries(
-    await page.$$eval(`#${id} tr[data-name]`, (rows) =>
-      rows.map((row) => [/** @type {HTMLElement} */ (row).dataset.name, Number(/** @type {HTMLElement} */ (row).dataset.si)]),
-    ),
-  );
-
-/** Ten significant digits. @param {Record<string, number>} found  @param {Record<string, number>} expected */
-function compare(found, expected) {
-  for (const [name, value] of Object.entries(expected)) {
-    // The margin is a relative difference of accelerations; its error is that of round-off over it.
-    const allowed = name.startsWith("margin") ? 1e-12 : 1e-10 * Math.max(Math.abs(value), name === "residual" ? (expected.peak ?? 0) : 0);
-    assert.ok(Math.abs((found[name] ?? NaN) - value) <= allowed, `${name}: ${found[name]}, natively ${value}`);
-  }
-}
-
-/** @param {string} text  of a label in the list of records */
-async function choose(text) {
-  await page.evaluate((wanted) => {
-    const label = [...document.querySelectorAll("#records label")].find((one) => one.textContent?.includes(wanted));
-    label?.querySelector("input")?.click();
-  }, text);
-  await settled();
-}
-
-/** The items of a list. @param {string} id */
-const listed = (id) => page.$$eval(`#${id} li`, (all) => all.map((one) => (one.textContent ?? "").trim()));
-
-/** @param {string} id */
-const textOf = (id) => page.$eval(`#${id}`, (one) => one.textContent ?? "");
+import {
+  answers,
+  choose,
+  command,
+  compare,
+  complaints,
+  downloaded,
+  drop,
+  enter,
+  four,
+  listed,
+  open,
+  page,
+  pathShown,
+  printed,
+  samples,
+  screenshots,
+  settled,
+  table,
+  textOf,
+} from "./browser.js";
 
 test("dropped files slide as the native library has it", async () => {
   await open("mu=0.1");
@@ -334,19 +254,6 @@ test("the table downloads with full digits", async () => {
   assert.deepEqual(complaints, []);
 });
 
-/** What a button downloads. @param {string} button  @param {string} ending */
-async function downloaded(button, ending) {
-  const folder = mkdtempSync(`${fileURLToPath(build)}download-`);
-  const client = await page.createCDPSession();
-  await client.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: folder });
-  await page.click(button);
-  const found = () => readdirSync(folder).find((name) => name.endsWith(ending));
-  for (let tries = 0; tries < 100 && !found(); ++tries) await new Promise((resolve) => setTimeout(resolve, 100));
-  const text = readFileSync(`${folder}/${found()}`, "utf8");
-  rmSync(folder, { recursive: true });
-  return text;
-}
-
 test("response spectrum: panel, CSV, command and Python, by keys", async () => {
   await open("mu=0.1&scale=-2");
   await drop("three.csv");
@@ -378,17 +285,6 @@ test("response spectrum: panel, CSV, command and Python, by keys", async () => {
   assert.ok(Math.abs(second.pseudo_acceleration_m_s2 - (expected[66] ?? NaN)) < 1e-12);
   assert.deepEqual(complaints, []);
 });
-
-/** What lines of Python print. @param {...string} lines */
-const printed = async (...lines) =>
-  execFileSync(python, ["-W", "ignore", "-c", lines.join("\n")], { cwd: samples, encoding: "utf8" })
-    .trim()
-    .split("\n")
-    .at(-1) ?? "";
-
-/** What a command prints. @param {string} line */
-const command = (line) =>
-  execFileSync(python, ["-W", "ignore", "-m", "stickslip", ...line.split(" ").slice(1)], { cwd: samples, encoding: "utf8" });
 
 test("many records: both ways, with mean, median and deviation", async () => {
   await open("mu=0.1");
@@ -492,12 +388,6 @@ test("the page opens with a sample record, which does not count, and neither doe
   assert.ok(!(await names()).includes("sine"));
   assert.deepEqual(complaints, []);
 });
-
-/** Types into a field. @param {string} selector  @param {string} text */
-async function enter(selector, text) {
-  await page.$eval(selector, (one) => (/** @type {HTMLInputElement} */ (one).value = ""));
-  await page.type(selector, text);
-}
 
 test("what is wrong or hard to believe says so beside its field, and no old number stays", async () => {
   await open("mu=0.1");
@@ -693,9 +583,6 @@ test("fields keep what is typed in them while others come and go", async () => {
   assert.equal(await page.$eval("#pendulum", (one) => /** @type {HTMLInputElement} */ (one).disabled), true);
   assert.deepEqual(complaints, []);
 });
-
-/** Four digits, as the page shows them. @param {number} value  in SI units  @param {number} size  of the unit */
-const four = (value, size) => String(Number((value / size).toPrecision(4))).replace("-", "\u2212");
 
 test("all shown numbers change their units", async () => {
   await open("mu=0.1");
