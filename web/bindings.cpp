@@ -1,9 +1,5 @@
-// The library for the page: records, ground motions, intensity measures and responses, as functions of numbers and
-// bytes.
-//
-// Every function that can fail returns a negative number if it did; `text()` is then the message. Arguments that are
-// not numbers are bytes in `input(size)`, and results are numbers in `numbers()` or a line per item in `text()`. The
-// functions that keep a ground motion return its number, which `discard` takes.
+// The library for the page: records, ground motions, intensity measures and the responses of sliders, as functions of
+// numbers and bytes; see exports.hpp.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -21,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "exports.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/excitation/gaussian.hpp"
 #include "stickslip/excitation/spectrum.hpp"
@@ -50,40 +47,29 @@
 #include "stickslip/sliding/trajectory.hpp"
 #include "stickslip/units.hpp"
 
-#ifdef __EMSCRIPTEN__
-#define STICKSLIP_EXPORT(name) __attribute__((export_name(#name), used))
-#else
-#define STICKSLIP_EXPORT(name)
-#endif
+namespace stickslip::web {
+
+std::vector<char> given;
+std::vector<double> answer;
+std::string said;
+
+namespace {
+std::map<int, RecordComponent> kept;
+int next = 0;
+}  // namespace
+
+const RecordComponent& of(int number) { return kept.at(number); }
+
+}  // namespace stickslip::web
 
 namespace {
 
 using namespace stickslip;
-
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-
-std::vector<char> given;     // what the page wrote
-std::vector<double> answer;  // numbers for the page
-std::string said;            // text for the page
-std::map<int, RecordComponent> kept;
-int next = 0;
+using namespace stickslip::web;
 
 int keep(RecordComponent component) {
   kept.emplace(next, std::move(component));
   return next++;
-}
-
-const RecordComponent& of(int number) { return kept.at(number); }
-
-/// Runs `work`, which returns a number of at least 0; -1 with its message if it throws.
-template <class Work>
-int guarded(Work&& work) {
-  try {
-    return work();
-  } catch (const std::exception& error) {
-    said = error.what();
-    return -1;
-  }
 }
 
 /// The most surfaces of a bearing.
@@ -104,16 +90,6 @@ constexpr const char* setting_names =
     "reference_pressure contact_radius temperature diffusivity conductivity period damping_ratio pendulum slope "
     "stop_gap restitution vertical clipped scale radii.0 radii.1 radii.2 radii.3 radii.4 mus.0 mus.1 mus.2 mus.3 mus.4 "
     "capacities.0 capacities.1 capacities.2 capacities.3 capacities.4";
-
-/// Those that the input begins with.
-Settings given_settings() {
-  Settings settings;
-  if (given.size() < sizeof settings) throw std::invalid_argument("wrong number of settings");
-  std::memcpy(&settings, given.data(), sizeof settings);
-  return settings;
-}
-
-bool is(double flag) { return flag > 0; }
 
 Mounting mounting_of(const Settings& s) {
   Mounting on;
@@ -198,12 +174,6 @@ Response response;
 Forces floor_forces;
 std::optional<GroundMotion> driving;
 
-/// The motion of the settings: with or without its vertical component, scaled.
-GroundMotion driven(const Settings& s, const GroundMotion& record) {
-  GroundMotion motion = is(s.vertical) ? record : record.component(Component::axis);
-  return s.scale == 1 ? motion : motion.scaled(s.scale);
-}
-
 struct Summary {
   double peak, residual, sliding_distance, time_sliding, slips, impacts, liftoffs, at_rest;
   double events, samples, end, input, imbalance, margin, impact_margin, pga, hold, temperature;
@@ -285,8 +255,7 @@ void summarize(const Found& found, const Margins& margin, bool at_rest, double p
       pga,
       hold,
       found.temperature.empty() ? undefined : *std::max_element(found.temperature.begin(), found.temperature.end())};
-  answer.resize(sizeof summary / sizeof(double));
-  std::memcpy(answer.data(), &summary, sizeof summary);
+  answer_with_summary(summary);
 }
 
 template <class Law>
@@ -326,8 +295,6 @@ void slide_in_plane(const Law& law, const Mounting& mounting, const GroundMotion
 
 std::vector<double> copy_of(std::span<const double> values) { return {values.begin(), values.end()}; }
 
-void answer_with(std::span<const double> values) { answer.assign(values.begin(), values.end()); }
-
 /// What the page shows of a component: a line of name, component, orientation, units, 1 upward or -1 downward, azimuth,
 /// start and sensor, separated by tabs; empty where there is none.
 std::string line_of(const RecordComponent& one) {
@@ -360,8 +327,8 @@ STICKSLIP_EXPORT(text_size) std::size_t text_size() { return said.size(); }
 STICKSLIP_EXPORT(numbers) const double* numbers() { return answer.data(); }
 STICKSLIP_EXPORT(numbers_size) std::size_t numbers_size() { return answer.size(); }
 
-/// The names of the numbers in settings and in summaries.
-STICKSLIP_EXPORT(names) void names() { said = std::string(setting_names) + "\n" + summary_names; }
+/// The names of the numbers in settings and in summaries of sliders.
+STICKSLIP_EXPORT(names) void names() { say_names(setting_names, summary_names); }
 
 /// The ranges beyond which another unit is more probable. `text` has a line of quantity and of what has such values for
 /// each, separated by a tab; `numbers` its bounds, the usual bounds, and from where on a value can only be meant.
@@ -510,7 +477,7 @@ STICKSLIP_EXPORT(response_spectrum) int response_spectrum(int number, double dam
 /// @return 0; `numbers` is the summary, and `history` has the histories
 STICKSLIP_EXPORT(slide) int slide(int number) {
   return guarded([&] {
-    const Settings settings = given_settings();
+    const Settings settings = given_settings<Settings>();
     driving = driven(settings, of(number).motion);
     with_law(settings, [&](const auto& law, const Mounting& on) { slide(law, on, *driving, is(settings.clipped)); });
     return 0;
@@ -520,9 +487,8 @@ STICKSLIP_EXPORT(slide) int slide(int number) {
 /// Peaks and magnitudes of residuals [m] for each mu in the input, after the settings: a sliding spectrum.
 STICKSLIP_EXPORT(spectrum) int spectrum(int number) {
   return guarded([&] {
-    Settings settings = given_settings();
-    std::vector<double> mus((given.size() - sizeof settings) / sizeof(double));
-    std::memcpy(mus.data(), given.data() + sizeof settings, mus.size() * sizeof(double));
+    Settings settings = given_settings<Settings>();
+    const std::vector<double> mus = given_numbers<Settings>();
     const GroundMotion motion = driven(settings, of(number).motion);
     answer.clear();
     Response one;
@@ -547,7 +513,7 @@ STICKSLIP_EXPORT(spectrum) int spectrum(int number) {
 /// @return 0; `numbers` is the summary, whose residual is a distance, and then x and y at each sample [m]
 STICKSLIP_EXPORT(path) int path(int number) {
   return guarded([&] {
-    const Settings settings = given_settings();
+    const Settings settings = given_settings<Settings>();
     const GroundMotion& record = of(number).motion;
     GroundMotion motion = is(settings.vertical) ? record : record.with_components(copy_of(record.transverse()));
     if (settings.scale != 1) motion = motion.scaled(settings.scale);

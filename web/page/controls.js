@@ -1,14 +1,15 @@
 // The form and the buttons: what the reader enters and does.
 
+import { listenToBlock, moveOnOver } from "./block.js";
 import { element, make } from "./dom.js";
-import { downloadSvg, goTo, play, playing, resizePlots, setTime, setWindow, zoom } from "./drawing.js";
+import { downloadSvg, goTo, play, playing, resizePlots, setTime, setWindow, showKind, zoom } from "./drawing.js";
 import { indexAt } from "./histories.js";
 import { cancelMany, downloadCurves, downloadMany, moveOnCurves, resizeCurves, slideMany, view } from "./many.js";
 import { downloadPath } from "./path.js";
 import { forgetColors } from "./plots.js";
 import { addFiles, answer, asks, generate, showRows, stopReading } from "./records.js";
 import { measureScene } from "./scene.js";
-import { applies, completed, FIELDS, LAWS, listed, MU, NOT_GIVEN, remark } from "./settings.js";
+import { applies, completed, FIELDS, hasMu, kindOf, LAWS, listed, MU, NOT_GIVEN, remark } from "./settings.js";
 import { GENERATORS } from "./sources.js";
 import { downloadResponse, downloadSliding, moveOnSpectrum } from "./spectra.js";
 import { changed, others, rows, saveLink, settings, state, units, zeta } from "./state.js";
@@ -36,10 +37,11 @@ export function showRemarks() {
     input.setAttribute("aria-invalid", String(found?.refused ?? false));
     if (found?.refused) wrong ||= found.text;
   };
-  say(element("mu-remark"), element("mu"), MU);
+  if (hasMu(full)) say(element("mu-remark"), element("mu"), MU);
+  element("mu-label").hidden = element("mu-remark").hidden = !hasMu(full);
   for (const label of element("fields").children) {
     const field = fieldOf(label.dataset.key, full);
-    if (field) say(label.querySelector(".remark"), label.querySelector("input"), field);
+    if (field && !field.choices) say(label.querySelector(".remark"), label.querySelector("input"), field);
   }
   if (element("fields").textContent.includes("is its unit right?")) element("mounting").open = true; // to be seen
   return wrong || (state.selected === state.generated ? generatorTrouble : "");
@@ -84,6 +86,17 @@ function entry(label, unitName, value, hint, onInput, type = "number") {
   const input = make("input", { type, step: "any", value, title: hint });
   input.oninput = () => onInput(input.value, input);
   return make("label", { title: hint }, make("span", {}, label), input, make("small", {}, unitName), make("small", { className: "remark" }));
+}
+
+/** A field of words. @param {Field} field  @param {Settings} full */
+function choice({ key, label, choices = [], hint }, full) {
+  const select = make("select", { title: hint }, ...choices.map((one, i) => make("option", { value: String(i) }, one)));
+  select.value = String(full[key]);
+  select.onchange = () => {
+    /** @type {any} */ (settings)[key] = Number(select.value);
+    changed();
+  };
+  return make("label", { className: "choice", title: hint }, make("span", {}, label), select);
 }
 
 /** Settings whose fields do not hold numbers. @type {Set<keyof Settings>} */
@@ -147,7 +160,7 @@ function refreshFields() {
     if (place.children[i]?.dataset.key === field.key) return;
     const type = typeof full[field.key] === "number" ? "number" : "text";
     const held = entered(field, { ...full, mus: typedMus() });
-    const made = entry(field.label, unitOfField(field).name, held, field.hint, (_, input) => enter(field, input), type);
+    const made = field.choices ? choice(field, full) : entry(field.label, unitOfField(field).name, held, field.hint, (_, input) => enter(field, input), type);
     made.dataset.key = field.key;
     place.insertBefore(made, place.children[i] ?? null);
   });
@@ -178,10 +191,15 @@ export function listen() {
     generate();
   };
   element("law").onchange = () => {
+    const [before, { mu, name } = {}] = [LAWS[settings.law], LAWS[Number(element("law").value)]];
+    const kind = kindOf(settings);
     settings.law = Number(element("law").value);
+    if (kind !== kindOf(settings)) settings.restitution = NaN; // of something else
     unreadable.clear();
     showFields();
-    if (LAWS[settings.law]?.name === "pendulum") setMu(Math.max(...typedMus()));
+    showKind();
+    if (name === "pendulum") setMu(Math.max(...typedMus()));
+    else if (mu !== undefined || before?.mu !== undefined) setMu(mu ?? 0.1);
     else changed();
   };
   element("mu-slider").oninput = () => setMu(Number(element("mu-slider").value));
@@ -226,6 +244,7 @@ export function listen() {
       if (step === undefined) return;
       event.preventDefault();
       const far = event.key.startsWith("Page");
+      if (spectrum === "over") return moveOnOver(far ? 10 * step : step);
       if (spectrum === "curves") return moveOnCurves(far ? 10 * step : step);
       if (spectrum === "sliding" || spectrum === "response") return moveOnSpectrum(spectrum, far ? 10 * step : step);
       const last = state.response.time.length - 1;
@@ -270,6 +289,7 @@ export function listen() {
     element("pin").setAttribute("aria-pressed", String(state.pinned !== null));
     changed();
   };
+  listenToBlock();
   element("link").onclick = () => {
     saveLink();
     copy(location.href, element("link"));

@@ -1,43 +1,60 @@
-// The pictures of a response over time, and the present time in them.
+// The pictures of a response over time, and the present time in them, whatever moves.
 
 import { download } from "./csv.js";
 import { element, make } from "./dom.js";
 import { interpolated } from "./histories.js";
-import { pathPlot, showPointOfPath } from "./path.js";
-import { color, CurvePlot, levelLine, LinePlot, shade } from "./plots.js";
-import { drawScene } from "./scene.js";
-import { command, completed, LAWS, python } from "./settings.js";
-import { showSliding, spectrumPlots } from "./spectra.js";
-import { fileName, GRAVITY, NO_COMMAND, settings, sourceOf, state, units } from "./state.js";
+import { color, LinePlot } from "./plots.js";
+import { measureScene } from "./scene.js";
+import { completed, kindOf } from "./settings.js";
+import { responsePlot } from "./spectra.js";
+import { fileName, NO_COMMAND, objects, settings, sourceOf, state, units } from "./state.js";
 import { svg } from "./svg.js";
-import { report, showNumbers } from "./tables.js";
-import { digits } from "./units.js";
+import { showNumbers } from "./tables.js";
 import { inUnits, inWords, plain, shown, unit } from "./values.js";
 
-/** @import { Settings, Summary } from "./library.js" */
+/** @import { Settings } from "./library.js" */
 /** @import { Row } from "./state.js" */
-/** @import { Line } from "./tables.js" */
-/** @import { Quantity } from "./units.js" */
 
-const KINDS = ["breakaway", "reversal", "arrest", "end", "impact", "liftoff", "landing"];
-const plots = makePlots();
+/** @param {string} name  of the picture  @param {string[]} strokes  names of the colors */
+export const history = (name, strokes) => new LinePlot(element(`plot-${name}`), strokes, onCursor, "time", { onWindow: setWindow });
 
-function makePlots() {
-  const onCursor = (/** @type {number | null} */ index) => {
-    if (!playing && !moving && state.response && index !== null) setTime(state.response.time[index] ?? 0, false);
-  };
-  const history = (/** @type {string} */ name, /** @type {string[]} */ strokes) =>
-    new LinePlot(element(`plot-${name}`), strokes, onCursor, "time", { onWindow: setWindow });
-  return {
-    acceleration: history("acceleration", ["acceleration"]),
-    velocity: history("velocity", ["velocity", "pinned"]),
-    displacement: history("displacement", ["displacement", "pinned"]),
-    hysteresis: new CurvePlot(element("plot-hysteresis"), "force"),
-  };
+/** @param {number | null} index */
+function onCursor(index) {
+  if (!playing && !moving && state.response && index !== null) setTime(state.response.time[index] ?? 0, false);
 }
 
+const ground = history("acceleration", ["acceleration"]);
+
+/** What moves now. */
+const object = () => objects[kindOf(settings)];
+/** The pictures over time. */
+const histories = () => [ground, ...object().histories];
+
 export function resizePlots() {
-  for (const plot of [...Object.values(plots), pathPlot, ...Object.values(spectrumPlots)]) plot.resize();
+  for (const plot of [ground, ...object().histories, ...object().others, responsePlot]) plot.resize();
+}
+
+/** Shows the parts of the page that belong to what moves. */
+export function showKind() {
+  const { dataset } = document.body;
+  if (dataset.kind === kindOf(settings)) return;
+  dataset.kind = kindOf(settings);
+  measureScene(element("scene"));
+  resizePlots();
+  for (const plot of histories()) plot.window(span);
+}
+
+/**
+ * A history of the ground or of the compared settings on the time base of both: the one that rested earlier stays where it is.
+ * @param {Float64Array} time
+ * @param {Float64Array} values
+ * @param {number} rest
+ */
+export function padded(time, values, rest) {
+  if (values.length === time.length) return values;
+  const longer = new Float64Array(time.length).fill(rest);
+  longer.set(values);
+  return longer;
 }
 
 /**
@@ -45,75 +62,29 @@ export function resizePlots() {
  * @param {Row} row
  */
 export function show(s, row) {
-  const source = sourceOf(row, s.vertical === 1);
-  element("command").textContent = command(s, source) ?? NO_COMMAND;
-  element("python").textContent = python(s, source, state.response?.summary.at_rest !== 0);
-  element("pinned").textContent = state.pinned ? `Compared with ${inWords(completed(state.pinned.settings))} (dashed).` : "";
-  element("output").classList.toggle("empty", state.response === null);
-  if (!state.response) return;
+  const found = state.response;
+  element("output").classList.toggle("empty", found === null);
+  showKind();
+  const other = state.pinned?.response?.kind === kindOf(s) ? state.pinned.response : null;
+  element("pinned").textContent = state.pinned && other ? `Compared with ${inWords(completed(state.pinned.settings))} (dashed).` : "";
+  const { plane } = object();
+  const source = sourceOf(row, s.vertical === 1, plane);
+  element("command").textContent = object().command(s, source) ?? NO_COMMAND;
+  element("python").textContent = object().python(s, source, row, found);
+  if (!found) return;
   element("subject").textContent = `${row.label}: ${inWords(s)}`;
-  element("answer").replaceChildren(
-    ...["peak", "residual"].map((name) =>
-      make("span", {}, `${name} `, make("b", {}, shown(/** @type {any} */ (state.response).summary[name], "length"))),
-    ),
-  );
-  const { summary, acceleration, velocity, displacement, force, events } = state.response;
-  const other = state.pinned?.response ?? null;
-  // Both on the longer time base: the one that rested earlier stays where it is.
-  const time = other && other.time.length > state.response.time.length ? other.time : state.response.time;
+  element("answer").replaceChildren(...object().answer(found).map(([name, value]) => make("span", {}, `${name} `, make("b", {}, value))));
+  const time = other && other.time.length > found.time.length ? other.time : found.time;
   if (span && span[0] >= (time.at(-1) ?? 0)) setWindow(null);
-  const padded = (/** @type {Float64Array} */ values, /** @type {number} */ rest) => {
-    if (values.length === time.length) return values;
-    const longer = new Float64Array(time.length).fill(rest);
-    longer.set(values);
-    return longer;
-  };
-  const [length, speed, ground] = [unit("length"), unit("velocity"), unit("acceleration")];
 
-  element("title-acceleration").textContent = `Ground acceleration [${ground.name}]`;
-  // It does not depend on the slider, except that its time ends with the slider at rest.
+  element("title-acceleration").textContent = `Ground acceleration${plane ? " along the axis" : ""} [${unit("acceleration").name}]`;
+  // It does not depend on what moves, except that its time ends with the object at rest.
   const drawn = [row.motion?.id, s.scale, time.length, units.acceleration, color("ink")].join(" ");
-  plots.acceleration.show(time, [inUnits(padded(acceleration, 0), "acceleration")], { key: drawn });
-  plots.acceleration.marks(
-    slipLevels(s, summary).map((level, i) => ({ value: level / ground.size, label: i ? "" : "slip level", below: level < 0 })),
-  );
-  element("title-velocity").textContent = `Velocity relative to the ground [${speed.name}]; shaded where it sticks`;
-  const rests = sticks(events, time.at(-1) ?? 0);
-  const speeds = [padded(velocity, 0), other ? padded(other.velocity, 0) : new Float64Array()];
-  plots.velocity.show(
-    time,
-    speeds.map((values) => inUnits(values, "velocity")),
-    { before: (u, ctx) => shade(u, ctx, rests) },
-  );
-  const [peak, residual] = [summary.peak / length.size, summary.residual / length.size];
-  let [low, high] = [0, 0];
-  for (let i = 0; i < displacement.length; ++i) {
-    low = Math.min(low, displacement[i] ?? 0);
-    high = Math.max(high, displacement[i] ?? 0);
-  }
-  const signed = -low > high ? -peak : peak;
-  element("title-displacement").textContent =
-    `Displacement relative to the ground [${length.name}]: peak ${digits(signed)} (dotted line), residual ${digits(residual)} (dashed)`;
-  const places = [
-    padded(displacement, summary.residual),
-    other ? padded(other.displacement, other.summary.residual) : new Float64Array(),
-  ];
-  plots.displacement.show(
-    time,
-    places.map((values) => inUnits(values, "length")),
-    {
-      range: [Math.min(0, signed), Math.max(0, signed)],
-      after: (u, ctx) => {
-        levelLine(u, ctx, signed, { stroke: "level", dash: [2, 3] });
-        levelLine(u, ctx, residual, { stroke: "displacement", dash: [6, 3] });
-      },
-    },
-  );
-  element("title-hysteresis").textContent = `Force per unit mass [${ground.name}] over displacement [${length.name}]`;
-  plots.hysteresis.show(inUnits(displacement, "length"), inUnits(force, "acceleration"));
+  ground.show(time, [inUnits(padded(time, found.acceleration, 0), "acceleration")], { key: drawn });
+  ground.marks(object().levels(s, found).map((level, i) => ({ value: level / unit("acceleration").size, label: i ? "" : "slip level", below: level < 0 })));
+  object().show(found, other, time);
   showNumbers();
-  showSliding();
-  element("report").textContent = report(s, row);
+  element("report").textContent = object().report(s, row, found);
   element("time").max = String(time.at(-1) ?? 1);
   if (row !== windowed) {
     windowed = row;
@@ -122,43 +93,6 @@ export function show(s, row) {
     setWindow(strong);
   }
   setTime(Math.min(state.now, time.at(-1) ?? 0));
-}
-
-/**
- * The ground accelerations at which the slider at x = 0 starts to slide forward and backward [m/s^2].
- * @param {Settings} s
- * @param {Summary} summary
- */
-function slipLevels({ slope, law }, { hold }) {
-  const held = hold / GRAVITY;
-  const angle = ((Number.isNaN(slope) ? 0 : slope) * Math.PI) / 180;
-  const [c, d] = [Math.cos(angle), Math.sin(angle)];
-  const forward = (-GRAVITY * (held * c - d)) / (c + held * d);
-  return LAWS[law]?.name === "one-way" ? [forward] : [(GRAVITY * (held * c + d)) / (c - held * d), forward];
-}
-
-/**
- * When the slider sticks.
- * @param {Float64Array} events
- * @param {number} end
- * @returns {[number, number][]}
- */
-function sticks(events, end) {
-  /** @type {[number, number][]} */
-  const intervals = [];
-  /** @type {number | null} */
-  let since = 0;
-  for (let i = 0; i < events.length; i += 4) {
-    const [time = 0, kind = 0] = [events[i], events[i + 3]];
-    if (KINDS[kind] === "breakaway" && since !== null) {
-      intervals.push([since, time]);
-      since = null;
-    } else if (KINDS[kind] === "arrest") {
-      since = time;
-    }
-  }
-  if (since !== null) intervals.push([since, end]);
-  return intervals;
 }
 
 /** The row whose window is that of its strong motion. @type {Row | null} */
@@ -171,31 +105,19 @@ function strongWindow({ motion }) {
   return to - from < duration / 3 ? [from, to] : null;
 }
 
-/** @typedef {[string, number, Quantity, string]} Line  name, value in SI units, quantity, SI unit */
-
 export function downloadSvg() {
-  if (!state.response || !state.selected) return;
-  const { summary, time, acceleration, velocity, displacement } = state.response;
-  const { length, ground, speed } = { length: unit("length"), ground: unit("acceleration"), speed: unit("velocity") };
-  const level = { stroke: "#a0417a", label: "" };
-  const picture = svg(state.selected.label, time, [
+  const { response: found, selected } = state;
+  if (!found || !selected) return;
+  const { name, size } = unit("acceleration");
+  const picture = svg(selected.label, found.time, [
     {
-      title: `Ground acceleration [${ground.name}]`,
-      lines: [{ values: inUnits(acceleration, "acceleration"), stroke: "#56616c" }],
-      levels: slipLevels(completed(settings), summary).map((value) => ({ ...level, value: value / ground.size })),
+      title: `Ground acceleration [${name}]`,
+      lines: [{ values: inUnits(found.acceleration, "acceleration"), stroke: "#56616c" }],
+      levels: object().levels(completed(settings), found).map((value) => ({ stroke: "#a0417a", label: "", value: value / size })),
     },
-    {
-      title: `Velocity relative to the ground [${speed.name}]`,
-      lines: [{ values: inUnits(velocity, "velocity"), stroke: "#0072b2" }],
-      levels: [],
-    },
-    {
-      title: `Displacement relative to the ground [${length.name}], peak ${digits(summary.peak / length.size)}`,
-      lines: [{ values: inUnits(displacement, "length"), stroke: "#d55e00" }],
-      levels: [{ ...level, value: summary.residual / length.size, label: `residual ${digits(summary.residual / length.size)}` }],
-    },
+    ...object().panels(found),
   ]);
-  download(`${fileName(state.selected)}.svg`, picture, "image/svg+xml");
+  download(`${fileName(selected)}.svg`, picture, "image/svg+xml");
 }
 
 export let playing = false;
@@ -207,30 +129,17 @@ let moving = false; // whether the page moves the cursors
  * @param {boolean} [cursors]  whether the pictures' cursors follow
  */
 export function setTime(time, cursors = true) {
-  if (!state.response) return;
+  const found = state.response;
+  if (!found || found.kind !== kindOf(settings)) return;
   state.now = time;
-  const { summary, displacement, velocity, acceleration, force } = state.response;
-  const at = interpolated(state.response.time, time);
-  drawScene(element("scene"), {
-    settings: completed(settings),
-    x: at(displacement),
-    peak: summary.peak,
-    acceleration: at(acceleration),
-    pga: summary.pga,
-    ruler: unit("length"),
-  });
+  const at = interpolated(found.time, time);
+  const { acceleration } = found;
   element("readout").textContent =
-    `t = ${time.toFixed(2)} s: ground ${shown(plain(at(acceleration)), "acceleration")}, ` +
-    `velocity ${shown(plain(at(velocity)), "velocity")}, displacement ${shown(plain(at(displacement)), "length")}`;
-  const [x, f] = [plain(at(displacement)), plain(at(force))];
-  plots.hysteresis.point(x / unit("length").size, f / unit("acceleration").size);
-  element("read-hysteresis").textContent =
-    `t = ${time.toFixed(2)} s: displacement ${shown(x, "length")}, force per unit mass ${shown(f, "acceleration")}`;
-  showPointOfPath();
+    `t = ${time.toFixed(2)} s: ground ${shown(plain(at(acceleration)), "acceleration")}, ${object().showTime(found, at, element("scene"))}`;
   element("time").value = String(time);
   if (!cursors) return;
   moving = true;
-  for (const plot of [plots.acceleration, plots.velocity, plots.displacement]) plot.point(time);
+  for (const plot of histories()) plot.point(time);
   moving = false;
 }
 
@@ -249,7 +158,7 @@ export function setWindow(range) {
   span = range;
   element("whole").hidden = range === null;
   element("whole").title = range ? `instead of ${range.map((time) => time.toFixed(3)).join(" to ")} s` : "";
-  for (const plot of [plots.acceleration, plots.velocity, plots.displacement]) plot.window(range);
+  for (const plot of histories()) plot.window(range);
   setTime(state.now);
 }
 

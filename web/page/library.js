@@ -1,12 +1,14 @@
-// The compiled library: what web/bindings.cpp exports, with JavaScript's types.
+// The compiled library: what web/bindings.cpp, web/blocks.cpp and web/carts.cpp export, with JavaScript's types.
+
+/** @import { Kind } from "./settings.js" */
 
 /**
  * What a slider is; the names are those of the command's options, SI units; NaN is not given.
  * @typedef {Object} Settings
  * @property {number} law            0 Coulomb, 1 caster, 2 one-way, 3 speed-dependent, 4 degrading, 5 Stribeck, 6 the bearing
- *   with several surfaces, 7 that of Kumar, which depends on pressure, speed and temperature
+ *   with several surfaces, 7 that of Kumar, which depends on pressure, speed and temperature; 8 a slender and 9 a rigid block; 10 a cart
  * @property {number} mu             coefficient of friction: at rest for the law 3, of a new surface for 4, at high speed for 5,
- *   the largest of all surfaces for 6, at high speed, 20 degrees Celsius and the reference pressure for 7
+ *   the largest of all surfaces for 6, at high speed, 20 degrees Celsius and the reference pressure for 7; NaN for 8
  * @property {number} mu_static
  * @property {number} reach          [m]
  * @property {number} mu_fast
@@ -30,6 +32,18 @@
  * @property {number} vertical       1: the vertical component acts
  * @property {number} clipped        1: the slider never leaves the ground
  * @property {number} scale          factor on the ground acceleration
+ * @property {number} width          of a block [m]
+ * @property {number} height         of a block [m]
+ * @property {number} wheels         of a cart: 0 four casters, of which 1 one, 2 two or 3 all are locked, 4 two fixed wheels behind
+ * @property {readonly number[]} headings  of four casters at the start [degrees]
+ * @property {number} base_length    between the casters, along the cart [m]
+ * @property {number} base_width     and across it [m]
+ * @property {number} body_length    of the outline of the cart [m]
+ * @property {number} body_width     [m]
+ * @property {number} gyration       radius [m]
+ * @property {number} trail          of a caster [m]
+ * @property {number} wheel_width    [m]
+ * @property {number} rolling_mu     rolling resistance over the load
  * @property {readonly number[]} radii       of 2, 3 or 5 surfaces [m]
  * @property {readonly number[]} mus         their coefficients, in the ratios of which mu is the largest
  * @property {readonly number[]} capacities  their travels to the stops [m]; empty for none
@@ -102,6 +116,58 @@
  * @property {number} meant              from where on a value can only be meant
  */
 
+/**
+ * What a block did; overturned is 1 to the right, -1 to the left, 0 if it stands; infinity and NaN as `RockingResponse` has them.
+ * @typedef {Object} BlockSummary
+ * @property {number} peak_rotation     [rad]
+ * @property {number} peak_ratio        of the rotation over alpha
+ * @property {number} overturned
+ * @property {number} overturned_at     [s]
+ * @property {number} impacts
+ * @property {number} uplifts
+ * @property {number} liftoffs
+ * @property {number} residual          displacement of the base [m]
+ * @property {number} sliding_distance  [m]
+ * @property {number} time_rocking      [s]
+ * @property {number} p                 [rad/s]
+ * @property {number} alpha             [rad]
+ * @property {number} restitution
+ * @property {number} margin
+ * @property {number} condition
+ * @property {number} impacts_with_slip
+ * @property {number} at_rest           1 or 0
+ * @property {number} events
+ * @property {number} samples
+ * @property {number} input             work of the ground
+ * @property {number} imbalance         of the energy
+ * @property {number} pga               of the scaled motion [m/s^2]
+ */
+
+/**
+ * What a cart did.
+ * @typedef {Object} CartSummary
+ * @property {number} peak                 of the center [m]
+ * @property {number} peak_yaw             [rad]
+ * @property {number} peak_outline         of the corner that moved farthest [m]
+ * @property {number} peak_time            of that [s]
+ * @property {number} peak_corner          which corner of the outline it is
+ * @property {number} residual_axis        [m]
+ * @property {number} residual_transverse  [m]
+ * @property {number} residual_yaw         [rad]
+ * @property {number} time_moving          [s]
+ * @property {number} rests
+ * @property {number} margin
+ * @property {number} at_rest              1 or 0
+ * @property {number} events
+ * @property {number} samples
+ * @property {number} input                work of the ground [m^2/s^2]
+ * @property {number} imbalance            of the energy [m^2/s^2]
+ * @property {number} pga                  of both components together [m/s^2]
+ */
+
+const BLOCK_HISTORIES = /** @type {const} */ (["rotation", "rate", "displacement", "top", "gap", "acceleration", "events"]);
+const CART_HISTORIES = /** @type {const} */ (["axis", "transverse", "yaw", "headings", "acceleration", "plan"]);
+
 const HISTORIES = /** @type {const} */ ([
   "displacement",
   "velocity",
@@ -113,10 +179,8 @@ const HISTORIES = /** @type {const} */ ([
 ]);
 
 export class Library {
-  /** @type {string[]} */
-  #settings;
-  /** @type {string[]} */
-  #summary;
+  /** The names of the numbers of settings and summaries. @type {Record<Kind, {settings: string[], summary: string[]}>} */
+  #names;
   /** @type {any} */
   #wasm;
 
@@ -124,10 +188,12 @@ export class Library {
   constructor(wasm) {
     this.#wasm = wasm;
     wasm._initialize?.();
-    wasm.names();
-    const [settings = "", summary = ""] = this.#text().split("\n");
-    this.#settings = settings.split(" ");
-    this.#summary = summary.split(" ");
+    const names = (/** @type {() => void} */ say) => {
+      say();
+      const [settings = [], summary = []] = this.#text().split("\n").map((line) => line.split(" "));
+      return { settings, summary };
+    };
+    this.#names = { slider: names(wasm.names), block: names(wasm.block_names), cart: names(wasm.cart_names) };
   }
 
   /**
@@ -310,21 +376,26 @@ export class Library {
     return this.#numbers();
   }
 
-  /** @param {Settings} settings */
-  #values(settings) {
+  /** @param {Settings} settings  @param {Kind} kind */
+  #values(settings, kind = "slider") {
     const values = /** @type {any} */ (settings);
-    return Float64Array.from(this.#settings, (name) => {
+    return Float64Array.from(this.#names[kind].settings, (name) => {
       const [key = "", place] = name.split(".");
       return Number(place === undefined ? values[key] : values[key][Number(place)]);
     });
   }
 
-  /**
-   * @param {Float64Array} numbers
-   * @returns {Summary}
-   */
-  #named(numbers) {
-    return /** @type {any} */ (Object.fromEntries(this.#summary.map((name, i) => [name, numbers[i]])));
+  /** A summary. @param {Float64Array} numbers  @param {Kind} kind  @returns {any} */
+  #named(numbers, kind = "slider") {
+    return Object.fromEntries(this.#names[kind].summary.map((name, i) => [name, numbers[i]]));
+  }
+
+  /** Gives settings, and then numbers. @param {Float64Array} values  @param {Float64Array} numbers */
+  #giveBoth(values, numbers) {
+    const both = new Float64Array(values.length + numbers.length);
+    both.set(values);
+    both.set(numbers, values.length);
+    this.#giveView(both);
   }
 
   /**
@@ -346,11 +417,7 @@ export class Library {
    * @param {Float64Array} mus
    */
   spectrum(id, settings, mus) {
-    const values = this.#values(settings);
-    const both = new Float64Array(values.length + mus.length);
-    both.set(values);
-    both.set(mus, values.length);
-    this.#giveView(both);
+    this.#giveBoth(this.#values(settings), mus);
     this.#checked(this.#wasm.spectrum(id));
     const numbers = this.#numbers();
     return { peak: numbers.filter((_, i) => i % 2 === 0), residual: numbers.filter((_, i) => i % 2 === 1) };
@@ -366,7 +433,7 @@ export class Library {
   path(id, settings) {
     this.#giveView(this.#values(settings));
     this.#checked(this.#wasm.path(id));
-    const [numbers, first] = [this.#numbers(), this.#summary.length];
+    const [numbers, first] = [this.#numbers(), this.#names.slider.summary.length];
     const every = (/** @type {number} */ from) =>
       Float64Array.from({ length: (numbers.length - first) / 2 }, (_, i) => numbers[from + 2 * i] ?? NaN);
     return { summary: this.#named(numbers), axis: every(first), transverse: every(first + 1) };
@@ -378,6 +445,72 @@ export class Library {
    */
   history(which) {
     this.#wasm.history(HISTORIES.indexOf(which));
+    return this.#numbers();
+  }
+
+  /**
+   * A block that rocks.
+   * @param {number} id
+   * @param {Settings} settings
+   * @returns {BlockSummary}
+   */
+  rock(id, settings) {
+    this.#giveView(this.#values(settings, "block"));
+    this.#checked(this.#wasm.rock(id));
+    return this.#named(this.#numbers(), "block");
+  }
+
+  /**
+   * The largest rotation over alpha of blocks of other heights and the same shape, or of other coefficients of friction; infinite
+   * where they overturn, NaN where they are refused.
+   * @param {number} id
+   * @param {Settings} settings
+   * @param {Float64Array} values
+   * @param {boolean} ofMu
+   */
+  rockOver(id, settings, values, ofMu) {
+    this.#giveBoth(this.#values(settings, "block"), values);
+    this.#checked(this.#wasm.rock_over(id, ofMu ? 1 : 0));
+    return this.#numbers();
+  }
+
+  /** A history of the last block, or its events: time, rotation, rate and kind. @param {typeof BLOCK_HISTORIES[number]} which */
+  blockHistory(which) {
+    this.#wasm.block_history(BLOCK_HISTORIES.indexOf(which));
+    return this.#numbers();
+  }
+
+  /**
+   * A cart under both horizontal components.
+   * @param {number} id
+   * @param {Settings} settings
+   * @returns {CartSummary}
+   */
+  roll(id, settings) {
+    this.#giveView(this.#values(settings, "cart"));
+    this.#checked(this.#wasm.roll(id));
+    return this.#named(this.#numbers(), "cart");
+  }
+
+  /**
+   * Members of carts whose casters have headings at random: the peaks of the center [m], of the yaw [rad] and of the outline [m].
+   * @param {number} id
+   * @param {Settings} settings
+   * @param {{first: number, count: number, seed: number}} members
+   */
+  rollAtRandom(id, settings, { first, count, seed }) {
+    this.#giveView(this.#values(settings, "cart"));
+    this.#checked(this.#wasm.roll_at_random(id, first, count, seed));
+    return this.#numbers();
+  }
+
+  /**
+   * A history of the last cart; its plan: for each support its kind, 0 swivel caster, 1 fixed wheel or 2 foot, and its place, then
+   * the corners of the outline.
+   * @param {typeof CART_HISTORIES[number]} which
+   */
+  cartHistory(which) {
+    this.#wasm.cart_history(CART_HISTORIES.indexOf(which));
     return this.#numbers();
   }
 }

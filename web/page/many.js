@@ -1,12 +1,12 @@
-// Many records: their table, and their peaks over mu.
+// Many records, whatever moves: their table, and curves of each.
 
 import { latest } from "./client.js";
 import { csv, download } from "./csv.js";
 import { element, make } from "./dom.js";
 import { resizePlots } from "./drawing.js";
 import { CURVE_HEIGHT, LinePlot } from "./plots.js";
-import { completed, toLink } from "./settings.js";
-import { GRAVITY, problemOf, refuse, rows, settings, state, untilIdle, worker } from "./state.js";
+import { completed, kindOf, toLink } from "./settings.js";
+import { GRAVITY, objects, problemOf, refuse, rows, settings, state, untilIdle } from "./state.js";
 import { statistics } from "./statistics.js";
 import { groundNumbers } from "./tables.js";
 import { digits } from "./units.js";
@@ -14,39 +14,48 @@ import { inUnits, inWords, shown, unit } from "./values.js";
 
 /** @import { Row } from "./state.js" */
 
-/** @typedef {{row: Row, normal: {peak: number, residual: number}, inverse: {peak: number, residual: number}, error?: string}} Pair */
-
-/** @type {Pair[]} */
-let pairs = [];
+/** @type {{row: Row, values: number[], error?: string}[]} */
+let lines = [];
 
 let cancelled = false;
 
 export const cancelMany = () => void (cancelled = true);
 
-/** The records of the table: what the reader chose, without vertical components. */
-const countedRows = () => rows.filter(({ motion, counts }) => motion && counts && !motion.vertical);
+const object = () => objects[kindOf(settings)];
+
+/** The records of the table: what the reader chose, without vertical components; one of a station if all of them act. */
+function countedRows() {
+  const counted = rows.filter(({ motion, counts }) => motion && counts && !motion.vertical);
+  if (!object().plane) return counted;
+  const stations = new Set();
+  return counted.filter((row) => {
+    const station = row.joined?.planarId ?? null;
+    const key = station === null ? row : row.joined?.members.join();
+    return !stations.has(key) && stations.add(key);
+  });
+}
 
 export const slideMany = latest(async () => {
   cancelled = false;
   const found = [];
   const motions = countedRows();
+  const { table } = object();
   const given = JSON.stringify(settings);
   element("many-cancel").hidden = false;
   for (const row of motions) {
     if (state.broken) break;
     element("many-progress").textContent = `Record ${found.length + 1} of ${motions.length}`;
-    const [full, id] = problemOf(settings, row);
-    const none = { peak: NaN, residual: NaN };
     try {
-      found.push({ row, ...(await worker.bothWays(id, full)) });
+      found.push({ row, values: await table.values(row) });
     } catch (error) {
-      found.push({ row, normal: none, inverse: none, error: /** @type {Error} */ (error).message });
+      found.push({ row, values: table.columns().map(() => NaN), error: /** @type {Error} */ (error).message });
     }
     if (cancelled || given !== JSON.stringify(settings)) break;
   }
   element("many-cancel").hidden = true;
   element("many-progress").textContent = cancelled ? `Cancelled after ${found.length} of ${motions.length}` : "";
-  pairs = found;
+  if (table !== object().table) return; // the next one is coming
+  lines = found;
   showMany();
   updateCurves();
 });
@@ -57,65 +66,71 @@ function manyNote() {
   const aside = rows.find(({ motion, counts }) => motion && !counts);
   return [
     ...(countedRows().length ? [] : ["No record yet: drop files on the page."]),
+    object().table.note(lines.map(({ values }) => values)),
     ...(vertical.length ? [`Left out, because they are vertical: ${vertical.join(", ")}.`] : []),
     ...(aside ? [`\u201c${aside.label}\u201d does not count${aside === state.generated ? " unless you add it to the records" : ""}.`] : []),
-  ].join(" ");
+  ]
+    .filter((one) => one)
+    .join(" ");
 }
 
-const CURVE_LEVELS = 25;
-
-/** The mean of both polarities [m] of each record. @type {{key: string, labels: string[], mus: Float64Array, peaks: Float64Array[], median: Float64Array} | null} */
+/** Of each record. @type {{key: string, labels: string[], xs: Float64Array, peaks: Float64Array[], median: Float64Array} | null} */
 let curves = null;
 
 /** @type {LinePlot | null} */
 let curvePlot = null;
 
-/** What the curves depend on: not mu. */
-const curvesKey = () => JSON.stringify(countedRows().map((row) => problemOf({ ...settings, mu: 1 }, row)));
+/** What the curves depend on. */
+const curvesKey = () => JSON.stringify([object().curves?.over().key, countedRows().map((row) => problemOf(settings, row)[1])]);
 
-const updateCurves = latest(async () => {
+export const updateCurves = latest(async () => {
   const counted = countedRows();
-  const key = curvesKey();
+  const [key, of] = [curvesKey(), object().curves];
   if (curves?.key === key) return showCurves();
   curves = null;
   element("figure-curves").hidden = true;
-  if (!counted.length) return;
-  const highest = Math.max(0.02, ...counted.map(({ motion }) => ((motion?.measures.pga ?? 0) * Math.abs(settings.scale)) / GRAVITY));
-  const mus = Float64Array.from({ length: CURVE_LEVELS }, (_, i) => 0.01 * (100 * highest) ** (i / (CURVE_LEVELS - 1)));
+  if (!counted.length || !of) return;
+  const highest = Math.max(...counted.map(({ motion }) => ((motion?.measures.pga ?? 0) * Math.abs(settings.scale)) / GRAVITY));
+  const { values: levels, name } = of.over();
+  const xs = levels(highest);
   /** @type {Float64Array[]} */
   const peaks = [];
   for (const row of counted) {
     await untilIdle();
     if (cancelled || state.broken || element("many").hidden || key !== curvesKey()) return;
-    element("many-progress").textContent = `Peak over \u03bc: record ${peaks.length + 1} of ${counted.length}`;
+    element("many-progress").textContent = `Peak over ${name}: record ${peaks.length + 1} of ${counted.length}`;
     element("many-cancel").hidden = false;
-    const [full, id] = problemOf(settings, row);
-    const both = await Promise.all([1, -1].map((sign) => worker.spectrum(id, { ...full, scale: sign * full.scale }, mus).catch(() => null)));
-    peaks.push(mus.map((_, i) => both.reduce((sum, one) => sum + (one?.peak[i] ?? NaN), 0) / 2));
+    peaks.push(await of.peaks(row, xs));
   }
   element("many-cancel").hidden = true;
   element("many-progress").textContent = "";
-  const median = mus.map((_, i) => statistics(peaks.map((peak) => peak[i] ?? NaN)).median);
-  curves = { key, labels: counted.map(({ label }) => label), mus, peaks, median };
+  const median = xs.map((_, i) => statistics(peaks.map((peak) => peak[i] ?? NaN)).median);
+  curves = { key, labels: counted.map(({ label }) => label), xs, peaks, median };
   showCurves();
 });
 
 function showCurves() {
-  if (!curves) return;
-  const { mus, peaks, median } = curves;
+  const of = object().curves;
+  if (!curves || !of) return;
+  const { xs, peaks, median } = curves;
+  const { size, at } = of.over();
   const figure = element("figure-curves");
   figure.hidden = false;
-  element("title-curves").textContent = `Peak [${unit("length").name}] over \u03bc: each record, mean of both polarities; median colored`;
-  if (figure.dataset.lines !== String(peaks.length)) {
+  element("title-curves").textContent = of.title();
+  const drawn = `${peaks.length} ${of.csv}`;
+  if (figure.dataset.lines !== drawn) {
     curvePlot?.destroy();
     const strokes = [...peaks.map(() => "pinned"), "displacement"];
-    const how = { logarithmic: true, dashed: false, height: CURVE_HEIGHT };
-    curvePlot = new LinePlot(element("plot-curves"), strokes, readCurves, "logarithm", how);
-    figure.dataset.lines = String(peaks.length);
+    const how = { logarithmic: of.logarithmic, gaps: true, dashed: false, height: CURVE_HEIGHT };
+    curvePlot = new LinePlot(element("plot-curves"), strokes, readCurves, of.logarithmic ? "logarithm" : "number", how);
+    figure.dataset.lines = drawn;
   }
   curvePlot?.resize();
-  curvePlot?.show(mus, [...peaks, median].map((values) => inUnits(values, "length")));
-  curvePlot?.marks([{ axis: "x", value: settings.mu }]);
+  curvePlot?.show(
+    xs.map((x) => x / size),
+    [...peaks, median].map((values) => inUnits(values, of.quantity).map((value) => (value < Infinity ? value : NaN))),
+  );
+  curvePlot?.marks([{ axis: "x", value: at / size }]);
 }
 
 /** The point of the curves whose values are shown. */
@@ -123,19 +138,22 @@ let point = 0;
 
 /** @param {number | null} index */
 function readCurves(index) {
-  if (index === null || !curves) return;
+  const of = object().curves;
+  if (index === null || !curves || !of) return;
   point = index;
+  const { name, size } = of.over();
   const values = curves.peaks.map((peak) => peak[index] ?? NaN).filter((value) => !Number.isNaN(value));
   element("read-curves").textContent =
-    `\u03bc = ${digits(curves.mus[index] ?? NaN)}: median ${shown(curves.median[index] ?? NaN, "length")}, ` +
-    `from ${shown(Math.min(...values), "length")} to ${shown(Math.max(...values), "length")}`;
+    `${name} = ${digits((curves.xs[index] ?? NaN) / size)}: median ${shown(curves.median[index] ?? NaN, of.quantity)}, ` +
+    `from ${shown(Math.min(...values), of.quantity)} to ${shown(Math.max(...values), of.quantity)}`;
 }
 
 /** @param {number} step */
 export function moveOnCurves(step) {
-  const mus = curves?.mus ?? new Float64Array();
-  const index = Math.min(mus.length - 1, Math.max(0, point + step));
-  curvePlot?.point(mus[index] ?? 0);
+  const of = object().curves;
+  if (!curves || !of) return;
+  const index = Math.min(curves.xs.length - 1, Math.max(0, point + step));
+  curvePlot?.point((curves.xs[index] ?? 0) / of.over().size);
   readCurves(index);
 }
 
@@ -144,66 +162,75 @@ export function resizeCurves() {
 }
 
 export function downloadCurves() {
-  if (!curves) return;
-  const { mus, peaks, median, labels } = curves;
-  const lines = Array.from(mus, (mu, i) => [mu, median[i] ?? NaN, ...peaks.map((peak) => peak[i] ?? NaN)]);
-  const note = `stickslip: peak [m], mean of both polarities; ${toLink({ ...completed(settings), mu: NaN })}`;
-  download("peaks_over_mu.csv", csv(["mu", "median", ...labels], lines, [note]), "text/csv");
+  const of = object().curves;
+  if (!curves || !of) return;
+  const { xs, peaks, median, labels } = curves;
+  const all = Array.from(xs, (x, i) => [x, median[i] ?? NaN, ...peaks.map((peak) => peak[i] ?? NaN)]);
+  const { csv: over } = of.over();
+  const note = `stickslip: ${of.csv}; ${toLink({ ...completed(settings), ...(over === "mu" ? { mu: NaN } : {}) })}`;
+  download(`peaks_over_${over}.csv`, csv([over, "median", ...labels], all, [note]), "text/csv");
 }
 
-/** @type {[string, (pair: Pair) => number][]} */
-const COLUMNS = [
-  ["peak normal", ({ normal }) => normal.peak],
-  ["peak inverse", ({ inverse }) => inverse.peak],
-  ["peak mean", ({ normal, inverse }) => (normal.peak + inverse.peak) / 2],
-  ["residual normal", ({ normal }) => normal.residual],
-  ["residual inverse", ({ inverse }) => inverse.residual],
-  ["residual mean", ({ normal, inverse }) => (normal.residual + inverse.residual) / 2],
-];
-
-/** @returns {[string, number[]][]}  mean, median and standard deviation of each column [m] */
+/** @returns {[string, number[]][]}  mean, median and standard deviation of each column that has them */
 function manyStatistics() {
-  const columns = COLUMNS.map(([, of]) => statistics(pairs.map(of)));
+  const { columns, counts } = object().table;
+  const all = columns().map((_, i) => statistics(counts(i) ? lines.map(({ values }) => values[i] ?? NaN) : []));
   return [
-    ["mean", columns.map((one) => one.mean)],
-    ["median", columns.map((one) => one.median)],
-    ["standard deviation", columns.map((one) => one.deviation)],
+    ["mean", all.map((one) => one.mean)],
+    ["median", all.map((one) => one.median)],
+    ["standard deviation", all.map((one) => one.deviation)],
   ];
 }
 
 function showMany() {
+  const { title, columns, text } = object().table;
+  const heads = columns();
+  element("many-title").textContent = title;
   element("many-settings").textContent = inWords(completed(settings));
   element("many-note").textContent = manyNote();
-  const { name, size } = unit("length");
-  const cells = (/** @type {number[]} */ values) => values.map((value) => make("td", {}, digits(value / size)));
+  const cells = (/** @type {number[]} */ values) =>
+    values.map((value, i) => make("td", {}, text(value, i) ?? digits(value / unit(heads[i]?.[1] ?? "none").size)));
   const table = element("many-table");
   table.tHead.replaceChildren(
-    make("tr", {}, make("th", {}, "record"), make("th", {}, "PGA"), ...COLUMNS.map(([head]) => make("th", {}, `${head} [${name}]`))),
+    make(
+      "tr",
+      {},
+      make("th", {}, "record"),
+      make("th", {}, "PGA"),
+      ...heads.map(([head, quantity]) => make("th", {}, `${head}${unit(quantity).name ? ` [${unit(quantity).name}]` : ""}`)),
+    ),
   );
   table.tBodies[0].replaceChildren(
-    ...pairs.map((pair) => {
-      const pga = shown((pair.row.motion?.measures.pga ?? NaN) * Math.abs(settings.scale), "acceleration");
-      const head = make("th", { scope: "row" }, pair.row.label, ...(pair.error ? [make("small", {}, ` ${pair.error}`)] : []));
-      const line = make("tr", {}, head, make("td", {}, pga), ...cells(COLUMNS.map(([, of]) => of(pair))));
-      line.dataset.si = JSON.stringify(COLUMNS.map(([, of]) => of(pair)));
+    ...lines.map(({ row, values, error }) => {
+      const pga = shown((row.motion?.measures.pga ?? NaN) * Math.abs(settings.scale), "acceleration");
+      const head = make("th", { scope: "row" }, row.label, ...(error ? [make("small", {}, ` ${error}`)] : []));
+      const line = make("tr", {}, head, make("td", {}, pga), ...cells(values));
+      line.dataset.si = JSON.stringify(values.map((value) => (Number.isFinite(value) ? value : String(value))));
       return line;
     }),
   );
   table.tFoot.replaceChildren(
-    ...manyStatistics().map(([head, values]) => make("tr", {}, make("th", { scope: "row", colSpan: 2 }, head), ...cells(values))),
+    ...manyStatistics().map(([head, values]) =>
+      make(
+        "tr",
+        {},
+        make("th", { scope: "row", colSpan: 2 }, head),
+        ...cells(values).map((cell, i) => (object().table.counts(i) ? cell : make("td"))),
+      ),
+    ),
   );
 }
 
 export function downloadMany() {
   const ground = ["pga_m_s2", "pgv_m_s", "arias_m_s", "d5_95_s", "tm_s"];
-  const header = ["record", ...ground, ...COLUMNS.map(([head]) => `${head.replace(" ", "_")}_m`)];
-  const lines = pairs.map((pair) => [
-    pair.row.label,
-    ...groundNumbers(pair.row).map(([, value]) => value),
-    ...COLUMNS.map(([, of]) => of(pair)),
+  const header = ["record", ...ground, ...object().table.columns().map(([, , name]) => name)];
+  const all = lines.map(({ row, values }) => [row.label, ...groundNumbers(row).map(([, value]) => value), ...values]);
+  const ends = manyStatistics().map(([head, values]) => [
+    head,
+    ...ground.map(() => ""),
+    ...values.map((value, i) => (object().table.counts(i) ? value : "")),
   ]);
-  const ends = manyStatistics().map(([head, values]) => [head, ...ground.map(() => ""), ...values]);
-  download("records.csv", csv(header, [...lines, ...ends], [`stickslip: ${toLink(completed(settings))}`]), "text/csv");
+  download("records.csv", csv(header, [...all, ...ends], [`stickslip: ${toLink(completed(settings))}`]), "text/csv");
 }
 
 /** @param {boolean} many */

@@ -5,7 +5,7 @@ import { csv, download } from "./csv.js";
 import { element } from "./dom.js";
 import { interpolated } from "./histories.js";
 import { CurvePlot } from "./plots.js";
-import { completed, pathCommand, pathPython, toLink } from "./settings.js";
+import { completed, kindOf, pathCommand, pathPython, toLink } from "./settings.js";
 import { fileName, NO_COMMAND, settings, sourceOf, state, untilIdle, worker } from "./state.js";
 import { certificate, comments, slideNumbers, tableRow } from "./tables.js";
 import { inUnits, plain, shown, unit } from "./values.js";
@@ -14,7 +14,7 @@ import { inUnits, plain, shown, unit } from "./values.js";
 /** @import { Row } from "./state.js" */
 /** @import { Line } from "./tables.js" */
 
-export const pathPlot = new CurvePlot(element("plot-path"), "displacement", true);
+export const pathPlot = new CurvePlot(element("plot-path"), ["displacement"], true);
 
 /** @type {{row: Row, summary: Summary, time: Float64Array, axis: Float64Array, transverse: Float64Array} | null} */
 let path = null;
@@ -25,7 +25,7 @@ let pathTime = 0; // that the last path took [ms]
 export const updatePath = latest(async () => {
   if (pathTime > SLOW) await untilIdle();
   const row = state.selected;
-  if (state.broken) return;
+  if (state.broken || kindOf(settings) !== "slider") return;
   const id = row?.joined?.planarId ?? null;
   const full = completed(settings);
   let trouble = row?.joined?.reason ?? "";
@@ -66,7 +66,7 @@ function showPath() {
   const { peak, residual } = path.summary;
   const last = axis.length - 1;
   pathPlot.resize();
-  pathPlot.map(transverse, axis, {
+  pathPlot.map([[transverse, axis]], {
     right: `transverse${right} [${name}]`,
     up: `along ${Number.isNaN(azimuth) ? component : orientation.replace(/^[\d.]+$/, "$&\u00b0")} [${name}]`,
     marks: [

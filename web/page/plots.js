@@ -84,6 +84,7 @@ export class LinePlot {
   /** @type {HTMLElement[]} */
   #marked = [];
   #logarithmic;
+  #gaps;
   #height;
 
   /**
@@ -91,14 +92,15 @@ export class LinePlot {
    * @param {string[]} strokes  names of the colors; the second line is dashed
    * @param {(index: number | null) => void} onCursor
    * @param {"time" | "number" | "logarithm"} [over]  that over which the lines are drawn
-   * @param {{onWindow?: (range: [number, number] | null) => void, logarithmic?: boolean, dashed?: boolean, height?: number}} [how]  where
+   * @param {{onWindow?: (range: [number, number] | null) => void, logarithmic?: boolean, gaps?: boolean, dashed?: boolean, height?: number}} [how]  where
    *   the mouse draws a window, or wants none; whether the values have a logarithmic scale, which omits those that are not
-   *   positive; whether the lines after the first are dashed, instead of
+   *   positive; whether values may be missing; whether the lines after the first are dashed, instead of
    *   the last being thick; [pixels]
    */
-  constructor(container, strokes, onCursor, over = "time", { onWindow = () => {}, logarithmic = false, dashed = true, height = HEIGHT } = {}) {
+  constructor(container, strokes, onCursor, over = "time", { onWindow = () => {}, logarithmic = false, gaps = false, dashed = true, height = HEIGHT } = {}) {
     this.#container = container;
     this.#logarithmic = logarithmic;
+    this.#gaps = gaps;
     this.#height = height;
     const draw = (/** @type {() => Draw} */ what) => (/** @type {uPlot} */ u) => {
       const { ctx, bbox } = u;
@@ -188,6 +190,7 @@ export class LinePlot {
     let room = 0.06 * (high - low || 1);
     /** @type {ArrayLike<number | null>[]} */
     let filled = lines.map((values) => (values.length ? values : none(time.length)));
+    if (this.#gaps) filled = filled.map((values) => Array.from(values, (value) => (Number.isNaN(value) ? null : value)));
     if (this.#logarithmic) {
       filled = lines.map((values) => Array.from(values, (value) => (value > 0 ? value : null)));
       [low, high, room] = [high / 1e4, high || 1, 0];
@@ -252,7 +255,7 @@ export class LinePlot {
 
 /** A point of a curve with its label. @typedef {{name: string, x: number, y: number, label: string}} Place */
 
-/** A curve in a plane, with a mark on it: the force over the displacement. */
+/** Curves in a plane, with a mark: the force over the displacement, or a map. */
 export class CurvePlot {
   /** @type {uPlot} */
   #plot;
@@ -266,10 +269,10 @@ export class CurvePlot {
 
   /**
    * @param {HTMLElement} container
-   * @param {string} stroke
-   * @param {boolean} [named]  whether the axes have names
+   * @param {string[]} strokes  of the curves
+   * @param {boolean} [named]    whether the axes have names
    */
-  constructor(container, stroke, named = false) {
+  constructor(container, strokes, named = false) {
     this.#container = container;
     this.#plot = new uPlot(
       {
@@ -284,14 +287,14 @@ export class CurvePlot {
         hooks: { draw: [() => this.#place()] }, // the scales may be new
         series: [
           {},
-          {
+          ...strokes.map((stroke) => ({
             stroke: () => color(stroke),
             width: 1.25,
             facets: [
               { scale: "x", auto: true },
               { scale: "y", auto: true },
             ],
-            paths: (u, series) => {
+            paths: (/** @type {uPlot} */ u, /** @type {number} */ series) => {
               const [xs, ys] = /** @type {any} */ (u.data[series]);
               const stroke = new Path2D();
               const [left, top] = [u.valToPos(0, "x", true), u.valToPos(0, "y", true)];
@@ -304,10 +307,10 @@ export class CurvePlot {
               }
               return /** @type {any} */ ({ stroke, fill: null, clip: null });
             },
-          },
+          })),
         ],
       },
-      /** @type {any} */ ([null, [[], []]]),
+      /** @type {any} */ ([null, ...strokes.map(() => [[], []])]),
       container,
     );
     this.#mark.className = "mark";
@@ -346,13 +349,12 @@ export class CurvePlot {
   }
 
   /**
-   * A curve as on a map, with one scale to the right and up.
-   * @param {Float64Array} xs
-   * @param {Float64Array} ys
+   * Curves as on a map, with one scale to the right and up.
+   * @param {[Float64Array, Float64Array][]} curves
    * @param {{right: string, up: string, marks: Place[], north: number}} of  names of the axes; marked points; the azimuth of the
    *   upward direction, NaN if it has none
    */
-  map(xs, ys, { right, up, marks, north }) {
+  map(curves, { right, up, marks, north }) {
     this.#names = [right, up];
     this.#places = marks;
     this.#map.replaceChildren(
@@ -368,10 +370,13 @@ export class CurvePlot {
       arrow.style.setProperty("--turn", `${-north}deg`);
       this.#map.append(arrow);
     }
-    this.#plot.setData(/** @type {any} */ ([null, [xs, ys]]), false);
+    this.#plot.setData(/** @type {any} */ ([null, ...curves]), false);
     const [wide, high] = [this.#plot.over.clientWidth, this.#plot.over.clientHeight];
-    const extent = (/** @type {Float64Array} */ values) => [values.reduce((a, b) => Math.min(a, b), 0), values.reduce((a, b) => Math.max(a, b), 0)];
-    const [[left = 0, far = 0], [low = 0, top = 0]] = [extent(xs), extent(ys)];
+    const extent = (/** @type {0 | 1} */ way) => {
+      const all = curves.map((curve) => curve[way]);
+      return [Math.min(...all.map((one) => one.reduce((a, b) => Math.min(a, b), 0))), Math.max(...all.map((one) => one.reduce((a, b) => Math.max(a, b), 0)))];
+    };
+    const [[left = 0, far = 0], [low = 0, top = 0]] = [extent(0), extent(1)];
     const scale = 0.62 * Math.max((far - left) / wide, (top - low) / high, 1e-9);
     const [x, y] = [(left + far) / 2, (low + top) / 2];
     this.#plot.batch(() => {

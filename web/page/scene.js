@@ -1,4 +1,4 @@
-// The object that slides on its floor.
+// The scene of what moves: the object that slides on its floor.
 
 import { color } from "./plots.js";
 import { LAWS } from "./settings.js";
@@ -12,13 +12,8 @@ export function measureScene(canvas) {
   [width, height] = [canvas.clientWidth, canvas.clientHeight];
 }
 
-/**
- * Draws the object at a displacement.
- * @param {HTMLCanvasElement} canvas
- * @param {{settings: Settings, x: number, peak: number, acceleration: number, pga: number, ruler: {size: number, name: string}}} of
- *   displacements [m], accelerations [m/s^2]; the unit of the ruler
- */
-export function drawScene(canvas, { settings, x, peak, acceleration, pga, ruler }) {
+/** An empty canvas, in CSS pixels. @param {HTMLCanvasElement} canvas */
+export function emptied(canvas) {
   const ratio = devicePixelRatio;
   if (width === 0) measureScene(canvas);
   if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
@@ -28,6 +23,39 @@ export function drawScene(canvas, { settings, x, peak, acceleration, pga, ruler 
   const ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
   ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
   ctx.clearRect(0, 0, width, height);
+  ctx.font = "11px system-ui, sans-serif";
+  return { ctx, width, height };
+}
+
+/**
+ * The acceleration of the ground, to the right.
+ * @param {CanvasRenderingContext2D} ctx
+ * @param {number} part  of the largest
+ * @param {[number, number]} [from]  default: below the floor
+ * @param {number} [longest]  [pixels]
+ */
+export function drawArrow(ctx, part, [x, y] = [width / 2, height - 6], longest = width / 5) {
+  const arrow = part * longest;
+  ctx.strokeStyle = ctx.fillStyle = color("acceleration");
+  ctx.lineWidth = 3;
+  line(ctx, x, y, x + arrow, y);
+  if (Math.abs(arrow) <= 6) return;
+  const back = Math.sign(arrow) * 6;
+  ctx.beginPath();
+  ctx.moveTo(x + arrow + back, y);
+  ctx.lineTo(x + arrow, y - 5);
+  ctx.lineTo(x + arrow, y + 5);
+  ctx.fill();
+}
+
+/**
+ * Draws the object at a displacement.
+ * @param {HTMLCanvasElement} canvas
+ * @param {{settings: Settings, x: number, peak: number, acceleration: number, pga: number, ruler: {size: number, name: string}}} of
+ *   displacements [m], accelerations [m/s^2]; the unit of the ruler
+ */
+export function drawSlider(canvas, { settings, x, peak, acceleration, pga, ruler }) {
+  const { ctx } = emptied(canvas);
   const [ink, block, pale] = [color("ink"), color("displacement"), color("quiet")];
   const box = Math.min(64, width / 5);
   const room = Math.max(peak, Number.isNaN(settings.stop_gap) ? 0 : settings.stop_gap, 1e-4);
@@ -46,7 +74,6 @@ export function drawScene(canvas, { settings, x, peak, acceleration, pga, ruler 
   line(ctx, -width, 0, width, 0);
   ctx.lineWidth = 1;
   const step = niceStep((width / 2 / scale / ruler.size) * 0.5);
-  ctx.font = "11px system-ui, sans-serif";
   ctx.textAlign = "center";
   for (let mark = -2; mark <= 2; ++mark) {
     const at = mark * step * ruler.size * scale;
@@ -95,24 +122,11 @@ export function drawScene(canvas, { settings, x, peak, acceleration, pga, ruler 
     }
   ctx.restore();
 
-  // The acceleration of the ground.
-  const arrow = pga > 0 ? (acceleration / pga) * (width / 5) : 0;
-  ctx.strokeStyle = ctx.fillStyle = color("acceleration");
-  ctx.lineWidth = 3;
-  line(ctx, width / 2, height - 6, width / 2 + arrow, height - 6);
-  if (Math.abs(arrow) > 6) {
-    const tip = width / 2 + arrow;
-    const back = Math.sign(arrow) * 6;
-    ctx.beginPath();
-    ctx.moveTo(tip + back, height - 6);
-    ctx.lineTo(tip, height - 11);
-    ctx.lineTo(tip, height - 1);
-    ctx.fill();
-  }
+  drawArrow(ctx, pga > 0 ? acceleration / pga : 0);
 }
 
 /** @param {CanvasRenderingContext2D} ctx  @param {number} x0  @param {number} y0  @param {number} x1  @param {number} y1 */
-function line(ctx, x0, y0, x1, y1) {
+export function line(ctx, x0, y0, x1, y1) {
   ctx.beginPath();
   ctx.moveTo(x0, y0);
   ctx.lineTo(x1, y1);
@@ -123,7 +137,7 @@ function line(ctx, x0, y0, x1, y1) {
  * 1, 2 or 5 times a power of ten, at most a length.
  * @param {number} length
  */
-function niceStep(length) {
+export function niceStep(length) {
   const power = 10 ** Math.floor(Math.log10(length));
   return power * (length / power >= 5 ? 5 : length / power >= 2 ? 2 : 1);
 }

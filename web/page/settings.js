@@ -32,13 +32,30 @@ export const NOT_GIVEN = Object.freeze({
   vertical: 0,
   clipped: 0,
   scale: 1,
+  width: NaN,
+  height: NaN,
+  wheels: 0,
+  headings: Object.freeze([]),
+  base_length: NaN,
+  base_width: NaN,
+  body_length: NaN,
+  body_width: NaN,
+  gyration: NaN,
+  trail: NaN,
+  wheel_width: NaN,
+  rolling_mu: NaN,
   radii: Object.freeze([]),
   mus: Object.freeze([]),
   capacities: Object.freeze([]),
 });
 
-/** The friction laws, in the order of their numbers. */
-export const LAWS = /** @type {const} */ ([
+/**
+ * What moves, in the order of the numbers: a slider with its friction law, a block, or a cart; and the coefficient of friction
+ * with which it begins.
+ * @typedef {"slider" | "block" | "cart"} Kind
+ * @type {readonly {name: string, label: string, kind?: Kind, mu?: number}[]}
+ */
+export const LAWS = Object.freeze([
   { name: "coulomb", label: "Coulomb" },
   { name: "caster", label: "casters" },
   { name: "one-way", label: "one-way (Newmark)" },
@@ -47,9 +64,19 @@ export const LAWS = /** @type {const} */ ([
   { name: "stribeck", label: "Stribeck" },
   { name: "pendulum", label: "multi-surface pendulum" },
   { name: "kumar", label: "pressure, speed, temperature (Kumar)" },
+  { name: "slender-block", label: "slender block", kind: "block" },
+  { name: "rigid-block", label: "rigid block", kind: "block", mu: 0.5 },
+  { name: "cart", label: "cart on four casters", kind: "cart", mu: 0.5 },
 ]);
 
-/** @typedef {"radii" | "mus" | "capacities"} List  a setting of several numbers */
+/** @param {Settings} settings  @returns {Kind} */
+export const kindOf = ({ law }) => LAWS[law]?.kind ?? "slider";
+
+/** Whether there is a coefficient of friction: a slender block does not slip. @param {Settings} settings */
+export const hasMu = ({ law }) => LAWS[law]?.name !== "slender-block";
+
+/** The casters of a cart, in the order of their numbers. */
+const WHEELS = ["four casters", "one locked", "two locked", "all locked", "two fixed wheels behind"];
 
 /**
  * @typedef {Object} Field
@@ -61,14 +88,20 @@ export const LAWS = /** @type {const} */ ([
  * @property {boolean} [open]         the least value itself is not allowed
  * @property {string} [range]         the library's name of the range outside of which another unit is more probable
  * @property {number | readonly number[]} [value]  where the law needs it and the link has none
- * @property {string[]} [laws]    that have it; all if not given
+ * @property {readonly string[]} [laws]  that have it; all if not given
+ * @property {readonly string[]} [choices]  whose number it is
+ * @property {number} [count]         of numbers of a list, if it must have so many
  * @property {(keyof Settings)[]} [needs]  the settings without any of which it has no meaning
  * @property {string} hint
  */
 
-const SINGLE = LAWS.map(({ name }) => /** @type {string} */ (name)).filter((name) => name !== "pendulum");
+/** @param {Kind} kind */
+const lawsOf = (kind) => LAWS.filter((one) => (one.kind ?? "slider") === kind).map(({ name }) => name);
+const [SLIDERS, BLOCKS, CARTS] = [lawsOf("slider"), lawsOf("block"), lawsOf("cart")];
+const SINGLE = SLIDERS.filter((name) => name !== "pendulum");
 
 const FRICTION = /** @type {const} */ ({ valid: [0, Infinity], range: "coefficient of friction" });
+const CART_LENGTH = /** @type {const} */ ({ quantity: "length", valid: [0, Infinity], open: true, range: "length of a cart", laws: CARTS });
 const LENGTH = /** @type {const} */ ({ quantity: "length", valid: [0, Infinity], open: true, range: "length" });
 /** What is above 0. @param {string} range */
 const positive = (range) => /** @type {const} */ ({ valid: [0, Infinity], open: true, range });
@@ -97,11 +130,24 @@ export const FIELDS = Object.freeze([
   { key: "diffusivity", label: "diffusivity", unit: "m\u00b2/s", ...positive("diffusivity"), value: 4.44e-6, laws: ["kumar"], hint: "thermal, of the steel" },
   { key: "conductivity", label: "conductivity", unit: "W/(m K)", ...positive("conductivity"), value: 18, laws: ["kumar"], hint: "thermal, of the steel" },
   { key: "mu_static", label: "\u03bc static", ...FRICTION, hint: "at rest, at least \u03bc", laws: ["coulomb", "caster", "one-way", "speed", "degrading"] },
-  { key: "period", label: "period", unit: "s", ...positive("period"), hint: "of the mass on its spring; empty without a spring" },
-  { key: "damping_ratio", label: "damping ratio", valid: [0, Infinity], range: "damping ratio", needs: ["period"], hint: "of a damper beside the spring" },
+  { key: "period", label: "period", unit: "s", ...positive("period"), laws: SLIDERS, hint: "of the mass on its spring; empty without a spring" },
+  { key: "damping_ratio", label: "damping ratio", valid: [0, Infinity], range: "damping ratio", laws: SLIDERS, needs: ["period"], hint: "of a damper beside the spring" },
   { key: "slope", label: "slope", unit: "degrees", valid: [-90, 90], range: "slope", laws: SINGLE, hint: "of the ground; downhill is forward" },
-  { key: "stop_gap", label: "stop gap", ...LENGTH, hint: "from the start to a stop, both ways" },
-  { key: "restitution", label: "restitution", valid: [0, 1], value: 0.5, needs: ["stop_gap", "capacities"], hint: "speed after an impact over that before" },
+  { key: "stop_gap", label: "stop gap", ...LENGTH, laws: SLIDERS, hint: "from the start to a stop, both ways" },
+  { key: "restitution", label: "restitution", valid: [0, 1], value: 0.5, laws: SLIDERS, needs: ["stop_gap", "capacities"], hint: "speed after an impact over that before" },
+  { key: "width", label: "width", quantity: "length", ...positive(""), value: 0.6, laws: BLOCKS, hint: "of a uniform block" },
+  { key: "height", label: "height", quantity: "length", ...positive(""), value: 2, laws: BLOCKS, hint: "of a uniform block" },
+  { key: "restitution", label: "restitution", valid: [0, 1], laws: BLOCKS, hint: "rate of the rotation after an impact over that before; empty for that of Housner" },
+  { key: "wheels", label: "wheels", valid: [0, 4], choices: WHEELS, laws: CARTS, hint: "a locked caster neither rolls nor swivels: the front right one, then the front left one, or all" },
+  { key: "headings", label: "headings", unit: "\u00b0", valid: [-360, 360], count: 4, value: [20, 110, -50, 160], laws: CARTS, hint: "of the casters at the start, front right, front left, rear right, rear left: from the wheel to the pivot, clockwise from the axis of the cart" },
+  { key: "base_length", label: "wheel base", ...CART_LENGTH, value: 0.6, hint: "between the casters, along the cart" },
+  { key: "base_width", label: "track", ...CART_LENGTH, value: 0.4, hint: "between the casters, across the cart" },
+  { key: "body_length", label: "length", ...CART_LENGTH, value: 0.8, hint: "of the outline of the cart" },
+  { key: "body_width", label: "width", ...CART_LENGTH, value: 0.6, hint: "of the outline of the cart" },
+  { key: "gyration", label: "gyration radius", ...CART_LENGTH, value: 0.25, hint: "about the center of mass, in the middle" },
+  { key: "trail", label: "trail", ...LENGTH, value: 0.03, laws: CARTS, hint: "of a caster, from its pivot to the axis of its wheel" },
+  { key: "wheel_width", label: "wheel width", ...LENGTH, value: 0.02, laws: CARTS, hint: "of the line on which a wheel stands" },
+  { key: "rolling_mu", label: "rolling \u03bc", ...FRICTION, range: "", value: 0.01, laws: CARTS, hint: "rolling resistance over the load" },
   { key: "scale", label: "scale", valid: [-Infinity, Infinity], value: 1, hint: "factor on the ground acceleration" },
 ]);
 
@@ -113,8 +159,10 @@ export const FIELDS = Object.freeze([
  * @param {Record<string, Range>} ranges     of the library
  * @returns {{text: string, refused: boolean} | null}
  */
-export function remark({ key, label, valid: [least, most], open = false, range = "" }, settings, shown, ranges) {
+export function remark({ key, label, valid: [least, most], open = false, range = "", count }, settings, shown, ranges) {
   const value = settings[key];
+  if (count !== undefined && value instanceof Array && value.length !== count)
+    return { text: `${label} must be ${count} numbers, got ${value.length}`, refused: true };
   const low = key === "mu_static" ? Math.max(least, settings.mu) : least; // at rest friction is at least that in motion
   for (const one of typeof value === "number" ? [value] : value) {
     if (Number.isNaN(one) && key !== "mu") continue; // not given
@@ -175,6 +223,7 @@ export function completed(settings) {
     else if (applies(field, result) && !given(result, key) && value !== undefined) result[key] = value;
   }
   result.mus = scaled(result.mus, result.mu);
+  if (!hasMu(result)) result.mu = NaN;
   if (Number.isNaN(result.period) || LAWS[result.law]?.name === "pendulum") result.pendulum = 0;
   return result;
 }
@@ -209,15 +258,16 @@ export function toLink(settings, others = {}) {
  */
 export function fromLink(text) {
   /** @type {any} */
-  const settings = { ...NOT_GIVEN, mu: 0.1 };
+  const settings = { ...NOT_GIVEN };
   /** @type {Record<string, string>} */
   const others = {};
   for (const [key, value] of new URLSearchParams(text)) {
     if (key === "law") settings.law = Math.max(0, LAWS.findIndex((law) => law.name === value));
     else if (!(key in NOT_GIVEN)) others[key] = value;
-    else if (settings[key] instanceof Array) settings[key] = listed(value).filter(Number.isFinite);
+    else if (NOT_GIVEN[/** @type {keyof Settings} */ (key)] instanceof Array) settings[key] = listed(value).filter(Number.isFinite);
     else if (value.trim() !== "" && Number.isFinite(Number(value))) settings[key] = Number(value);
   }
+  if (Number.isNaN(settings.mu)) settings.mu = LAWS[settings.law]?.mu ?? 0.1;
   return { settings, others };
 }
 
@@ -231,7 +281,7 @@ export const quoted = (text) => (/^[\w@%+=:,./-]+$/.test(text) ? text : `'${text
  * The words that name a record to the command.
  * @param {Source} source  of files
  */
-function record({ files, units, dt, component }) {
+export function record({ files, units, dt, component }) {
   return [
     ...files.map(quoted),
     ...(units ? ["--units", quoted(units)] : []),
@@ -241,7 +291,7 @@ function record({ files, units, dt, component }) {
 }
 
 /** @param {Source} source */
-const imports = (source, needsNumbers = false) => [
+export const imports = (source, needsNumbers = false) => [
   ...(needsNumbers || source.python.some((line) => line.includes("np.")) ? ["import numpy as np"] : []),
   "import stickslip as ss",
   "",
@@ -283,7 +333,7 @@ export function spectrumPython(source, damping, scale) {
 /** Settings in words, for a heading. @param {Settings} s  @param {(field: Field) => string} shown  a value with its unit */
 export const described = (s, shown) =>
   [
-    `${LAWS[s.law]?.label}, \u03bc ${s.mu}`,
+    `${LAWS[s.law]?.label}${hasMu(s) ? `, \u03bc ${s.mu}` : ""}`,
     ...FIELDS.filter((field) => field.key !== "scale" && applies(field, s) && given(s, field.key)).map((field) => `${field.label} ${shown(field)}`),
     ...(s.pendulum ? ["the spring is a pendulum"] : []),
     ...(s.scale === 1 ? [] : [`scaled by ${s.scale}`]),

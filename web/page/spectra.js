@@ -4,7 +4,7 @@ import { latest } from "./client.js";
 import { csv, download } from "./csv.js";
 import { element } from "./dom.js";
 import { color, LinePlot } from "./plots.js";
-import { completed, PERIODS, spectrumCommand, spectrumPython, toLink } from "./settings.js";
+import { completed, kindOf, PERIODS, spectrumCommand, spectrumPython, toLink } from "./settings.js";
 import {
   fileName,
   GRAVITY,
@@ -24,10 +24,8 @@ import { inUnits, shown, unit } from "./values.js";
 
 /** @import { Row } from "./state.js" */
 
-export const spectrumPlots = {
-  sliding: new LinePlot(element("plot-sliding"), ["displacement", "velocity"], (i) => readSpectrum("sliding", i), "number"),
-  response: new LinePlot(element("plot-response"), ["acceleration"], (i) => readSpectrum("response", i), "logarithm"),
-};
+export const slidingPlot = new LinePlot(element("plot-sliding"), ["displacement", "velocity"], (i) => readSpectrum("sliding", i), "number");
+export const responsePlot = new LinePlot(element("plot-response"), ["acceleration"], (i) => readSpectrum("response", i), "logarithm");
 
 /** @type {{key: string, mus: Float64Array, peak: Float64Array, residual: Float64Array} | null} */
 let sliding = null;
@@ -41,7 +39,7 @@ const slidingKey = (row) => JSON.stringify(problemOf({ ...settings, mu: 1 }, row
 /** In parts, while nothing else is asked: it does not depend on mu, so that a moving slider can wait for it. */
 export const updateSliding = latest(async () => {
   const row = state.selected;
-  if (!row?.motion || state.broken) return;
+  if (!row?.motion || state.broken || kindOf(settings) !== "slider") return;
   const [full, id] = problemOf(settings, row);
   const key = slidingKey(row);
   if (sliding?.key === key) return; // `show` has drawn it
@@ -68,8 +66,8 @@ export function showSliding() {
   const { mus, peak, residual } = sliding;
   element("title-sliding").textContent = `Sliding spectrum: peak and residual (dashed) [${unit("length").name}] over \u03bc`;
   const drawn = [sliding.key, units.length, color("ink")].join(" ");
-  spectrumPlots.sliding.show(mus, [inUnits(peak, "length"), inUnits(residual, "length")], { key: drawn });
-  spectrumPlots.sliding.marks([{ axis: "x", value: settings.mu }]);
+  slidingPlot.show(mus, [inUnits(peak, "length"), inUnits(residual, "length")], { key: drawn });
+  slidingPlot.marks([{ axis: "x", value: settings.mu }]);
 }
 
 /** Of the motion as it was recorded. @type {{key: string, row: Row, values: Float64Array} | null} */
@@ -102,7 +100,7 @@ function showResponseSpectrum() {
     `Response spectrum: pseudo-acceleration [${unit("acceleration").name}] over the period [s], damping ratio ${zeta()}`;
   const values = spectralAccelerations();
   element("figure-response").dataset.si = JSON.stringify([...values]);
-  spectrumPlots.response.show(PERIODS, [inUnits(values, "acceleration")]);
+  responsePlot.show(PERIODS, [inUnits(values, "acceleration")]);
   const source = sourceOf(row, false);
   element("response-command").textContent = spectrumCommand(source, zeta(), settings.scale) ?? NO_COMMAND;
   element("response-python").textContent = spectrumPython(source, zeta(), settings.scale);
@@ -133,7 +131,7 @@ function readSpectrum(which, index) {
 export function moveOnSpectrum(which, step) {
   const xs = { sliding: sliding?.mus, response: PERIODS }[which] ?? new Float64Array();
   const index = Math.min(xs.length - 1, Math.max(0, points[which] + step));
-  spectrumPlots[which].point(xs[index] ?? 0);
+  (which === "sliding" ? slidingPlot : responsePlot).point(xs[index] ?? 0);
   readSpectrum(which, index);
 }
 

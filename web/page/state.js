@@ -5,12 +5,16 @@ import { element } from "./dom.js";
 import { completed, fromLink, toLink } from "./settings.js";
 import { GENERATORS } from "./sources.js";
 
-/** @import { Unpack } from "./loader.js" */
 /** @import { Range, Settings } from "./library.js" */
 /** @import { Stated } from "./metadata.js" */
 /** @import { Source } from "./sources.js" */
-/** @import { Choice } from "./units.js" */
-/** @import { Joined, Motion, Response } from "./worker.js" */
+/** @import { Choice, Quantity } from "./units.js" */
+/** @import { Unpack } from "./loader.js" */
+/** @import { Kind } from "./settings.js" */
+/** @import { CurvePlot, LinePlot } from "./plots.js" */
+/** @import { Panel } from "./svg.js" */
+/** @import { Line } from "./tables.js" */
+/** @import { Joined, Motion } from "./worker.js" */
 
 export const GRAVITY = 9.80665;
 
@@ -47,11 +51,66 @@ export const rows = [];
  */
 
 /**
+ * A response of what moves, with its histories by their names.
+ * @typedef {{kind: Kind, summary: any, time: Float64Array, acceleration: Float64Array} & Record<string, any>} Found
+ */
+
+/**
+ * A table of many records: names, quantities and units of its columns, and the values of a record.
+ * @typedef {Object} Table
+ * @property {string} title
+ * @property {() => [string, Quantity, string][]} columns  heading, quantity, name in a CSV file
+ * @property {(row: Row) => Promise<number[]>} values
+ * @property {(value: number, column: number) => string | null} text  where a number is none to a reader
+ * @property {(column: number) => boolean} counts                     whether a column has a mean
+ * @property {(values: number[][]) => string} note
+ */
+
+/**
+ * Curves of many records over a number.
+ * @typedef {Object} Curves
+ * @property {() => {name: string, csv: string, size: number, at: number, values: (highest: number) => Float64Array, key: string}} over
+ *   what is along the axis, with its unit, and where the present settings are
+ * @property {(row: Row, values: Float64Array) => Promise<Float64Array>} peaks
+ * @property {string} csv        what they are
+ * @property {() => string} title
+ * @property {Quantity} quantity
+ * @property {boolean} logarithmic  whether both axes are
+ */
+
+/**
+ * What the page does with a kind of object.
+ * @typedef {Object} Moving
+ * @property {string} caption   of the numbers
+ * @property {(found: Found) => string} remark  below them
+ * @property {boolean} plane      whether both horizontal components act
+ * @property {(full: Settings, row: Row) => Promise<Found>} respond
+ * @property {LinePlot[]} histories
+ * @property {(LinePlot | CurvePlot)[]} others
+ * @property {() => void} update  other pictures, after a change
+ * @property {(found: Found) => [string, string][]} answer
+ * @property {(found: Found) => Line[]} numbers
+ * @property {(s: Settings, found: Found) => number[]} levels  of the ground acceleration, at which it begins to move [m/s^2]
+ * @property {(found: Found, other: Found | null, time: Float64Array) => void} show
+ * @property {(found: Found, at: (values: Float64Array) => number, scene: HTMLCanvasElement) => string} showTime  and says what is then
+ * @property {(found: Found) => Record<string, Float64Array>} columns
+ * @property {(found: Found) => Panel[]} panels
+ * @property {(s: Settings, source: Source) => string | null} command
+ * @property {(s: Settings, source: Source, row: Row, found: Found | null) => string} python
+ * @property {(s: Settings, row: Row, found: Found) => string} report
+ * @property {Table} table
+ * @property {Curves | null} curves
+ */
+
+/** @type {Record<Kind, Moving>} */
+export const objects = /** @type {any} */ ({}); // each by its own file
+
+/**
  * What changes while the page is open.
  * @typedef {Object} State
  * @property {Row | null} selected
- * @property {Response | null} response
- * @property {{settings: Settings, response: Response | null} | null} pinned  settings to compare with, and what they give
+ * @property {Found | null} response
+ * @property {{settings: Settings, response: Found | null} | null} pinned  settings to compare with, and what they give
  * @property {number} now                     the time that is shown [s]
  * @property {import("./sources.js").Generator | undefined} generator
  * @property {Row | null} generated           the motion of the generator is one row, which changes with its numbers

@@ -1,6 +1,16 @@
 // Statistics of a column.
 
 /**
+ * The value that a fraction of all values does not exceed, as `Ensemble.quantile` has it.
+ * @param {number[]} values
+ * @param {number} probability
+ */
+export function quantile(values, probability) {
+  const sorted = [...values].sort((a, b) => a - b);
+  return sorted[Math.max(Math.ceil(probability * sorted.length) - 1, 0)] ?? NaN;
+}
+
+/**
  * @param {number[]} values  NaN is left out
  * @returns {{mean: number, median: number, deviation: number}}  the deviation is that of a sample, with n - 1
  */

@@ -1,16 +1,14 @@
-// The numbers of a response: tables, their downloads, and a paragraph for a report.
+// The numbers of a response, whatever moves, and of the ground: tables and their downloads.
 
 import { csv, download } from "./csv.js";
 import { element, make } from "./dom.js";
-import { applies, completed, FIELDS, given, LAWS, toLink } from "./settings.js";
-import { fileName, settings, state } from "./state.js";
-import { digits } from "./units.js";
-import { inField, listOf, shown } from "./values.js";
+import { completed, toLink } from "./settings.js";
+import { fileName, objects, settings, state } from "./state.js";
+import { shown } from "./values.js";
 
-/** @import { Settings, Summary } from "./library.js" */
-/** @import { Row } from "./state.js" */
+/** @import { Summary } from "./library.js" */
+/** @import { Found, Row } from "./state.js" */
 /** @import { Quantity } from "./units.js" */
-/** @import { Response } from "./worker.js" */
 
 /** @typedef {[string, number, Quantity, string]} Line  name, value in SI units, quantity, SI unit */
 
@@ -48,21 +46,21 @@ export const slideNumbers = (summary) => [
     : [/** @type {Line} */ (["highest temperature", summary.temperature, "temperature", "degrees Celsius"])]),
 ];
 
-/** How far to trust a response. @param {Summary} summary  @returns {Line[]} */
+/** How far to trust a response. @param {any} summary  @returns {Line[]} */
 export const certificate = (summary) => [
   ["events", summary.events, "none", ""],
   ["energy imbalance over input", summary.imbalance / (summary.input || 1), "none", ""],
-  ["margin of the closest decision", Math.min(summary.margin, summary.impact_margin), "none", ""],
+  ["margin of the closest decision", Math.min(summary.margin, summary.impact_margin ?? Infinity), "none", ""],
 ];
 
 /**
- * @param {Response | null} of
+ * @param {Found | null} of
  * @param {number} times  the scale of the motion
  * @returns {Line[]}
  */
 function numbers(of = state.response, times = settings.scale) {
   if (!of || !state.selected?.motion) return [];
-  return [...slideNumbers(of.summary), ...groundNumbers(state.selected, times), ...certificate(of.summary)];
+  return [...objects[of.kind].numbers(of), ...groundNumbers(state.selected, times), ...certificate(of.summary)];
 }
 
 /**
@@ -77,7 +75,7 @@ export function tableRow([name, value, quantity], ...more) {
 }
 
 export function showNumbers() {
-  const compared = state.pinned ? numbers(state.pinned.response, state.pinned.settings.scale) : [];
+  const compared = state.pinned?.response?.kind === state.response?.kind && state.pinned ? numbers(state.pinned.response, state.pinned.settings.scale) : [];
   element("numbers").tHead.replaceChildren(
     ...(compared.length ? [make("tr", {}, make("th"), make("td", {}, "now"), make("td", {}, "compared"))] : []),
   );
@@ -94,49 +92,20 @@ export function showNumbers() {
     body.replaceChildren(
       ...lines.map((line, i) => tableRow(line, ...(compared[i] ? [make("td", {}, shown(compared[i][1], line[2]))] : []))),
     );
-  if (state.response && !state.response.summary.at_rest)
-    body.append(
-      make("tr", {}, make("th", { colSpan: 2 }, "It never comes to rest; these are the numbers at the end of the record.")),
-    );
-}
-
-/**
- * A paragraph for a report.
- * @param {Settings} s
- * @param {Row} row
- */
-export function report(s, row) {
-  if (!state.response || !row.motion) return "";
-  const { summary } = state.response;
-  const law = LAWS[s.law]?.label ?? "";
-  const details = FIELDS.filter((field) => field.key !== "scale" && applies(field, s) && given(s, field.key)).map(
-    (field) => `${field.label} ${inField(field, listOf(s[field.key]))}`,
-  );
-  if (s.pendulum) details.push("the spring being a pendulum");
-  const scaled = s.scale === 1 ? "" : `, scaled by ${s.scale}`;
-  const ground = `${row.label} (PGA ${shown(summary.pga, "acceleration")}${s.vertical ? ", with its vertical component" : ""}${scaled})`;
-  const rest = summary.at_rest
-    ? `comes to rest with a residual displacement of ${shown(summary.residual, "length")}`
-    : `has not come to rest at the end of the record, where its displacement is ${shown(summary.residual, "length")}`;
-  return (
-    `A mass held by friction (${law}, \u03bc = ${s.mu}${details.length ? `; ${details.join("; ")}` : ""}) was subjected to the ground motion ` +
-    `${ground}. It slides ${shown(summary.sliding_distance, "length")} in ${summary.slips} slips; its displacement relative to the ` +
-    `ground reaches ${shown(summary.peak, "length")}, and it ${rest}. Computed with stickslip, event by event; the energy ` +
-    `balance closes to ${digits(Math.abs(summary.imbalance / (summary.input || 1)))} of the work of the ground, and the closest ` +
-    `decision between stick and slip has a relative margin of ${digits(Math.min(summary.margin, summary.impact_margin))}.`
-  );
+  if (!state.response) return;
+  const { caption, remark } = objects[state.response.kind];
+  element("numbers").caption.textContent = caption;
+  if (remark(state.response)) body.append(make("tr", {}, make("th", { colSpan: 2 }, remark(state.response))));
 }
 
 export function downloadCsv() {
   if (!state.response || !state.selected) return;
-  const { time, acceleration, velocity, displacement, force } = state.response;
-  const rows = Array.from(time, (t, i) =>
-    [t, acceleration[i], velocity[i], displacement[i], force[i]].map((value) => value ?? NaN),
-  );
+  const { kind, time, acceleration } = state.response;
+  const columns = { time_s: time, ground_acceleration_m_s2: acceleration, ...objects[kind].columns(state.response) };
+  const rows = Array.from(time, (_, i) => Object.values(columns).map((values) => values[i] ?? NaN));
   const notes = [
     `stickslip: ${state.selected.label}; ${toLink(completed(settings))}`,
     ...comments(numbers()),
   ];
-  const header = ["time_s", "ground_acceleration_m_s2", "velocity_m_s", "displacement_m", "force_m_s2"];
-  download(`${fileName(state.selected)}.csv`, csv(header, rows, notes), "text/csv");
+  download(`${fileName(state.selected)}.csv`, csv(Object.keys(columns), rows, notes), "text/csv");
 }

@@ -8,13 +8,16 @@
 
 const GRAVITY = 9.80665;
 
-/** @type {Record<"length" | "acceleration" | "velocity" | "time" | "temperature" | "none", Record<string, Unit>>} */
+/** @type {Record<"length" | "acceleration" | "velocity" | "time" | "temperature" | "angle" | "rate" | "side" | "none", Record<string, Unit>>} */
 export const UNITS = {
   length: { cm: { name: "cm", size: 0.01 }, m: { name: "m", size: 1 }, in: { name: "in", size: 0.0254 } },
   velocity: { cm: { name: "cm/s", size: 0.01 }, m: { name: "m/s", size: 1 }, in: { name: "in/s", size: 0.0254 } },
   acceleration: { g: { name: "g", size: GRAVITY }, si: { name: "m/s\u00b2", size: 1 } },
   time: { s: { name: "s", size: 1 } },
   temperature: { celsius: { name: "\u00b0C", size: 1 } },
+  angle: { rad: { name: "rad", size: 1 } },
+  rate: { rad: { name: "rad/s", size: 1 } },
+  side: { none: { name: "", size: 1 } }, // right, left or none
   none: { none: { name: "", size: 1 } },
 };
 
@@ -35,6 +38,9 @@ export function unitOf(quantity, choice) {
     acceleration: choice.acceleration,
     time: "s",
     temperature: "celsius",
+    angle: "rad",
+    rate: "rad",
+    side: "none",
     none: "none",
   }[quantity];
   return /** @type {Unit} */ (UNITS[quantity][key]);

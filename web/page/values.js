@@ -13,6 +13,8 @@ export const unit = (quantity) => unitOf(quantity, units);
 
 /** @param {number} value  @param {Quantity} quantity */
 export const shown = (value, quantity) => {
+  if (Number.isNaN(value)) return digits(value);
+  if (quantity === "side") return value > 0 ? "right" : value < 0 ? "left" : "no";
   const { name, size } = unit(quantity);
   return `${digits(value / size)}${name ? ` ${name}` : ""}`;
 };
@@ -34,11 +36,12 @@ export const listOf = (value) => (typeof value === "number" ? (Number.isNaN(valu
 /** @param {Field} field */
 export const unitOfField = ({ quantity, unit: name = "" }) => (quantity ? unit(quantity) : { name, size: 1 });
 
-/** Values of a setting in its unit. @param {Field} field  @param {readonly number[]} values */
-export function inField(field, values) {
+/** Values of a setting in its unit, as they are held. @param {Field} field  @param {readonly number[]} values  @param {number} [precision]  digits */
+export function inField(field, values, precision = 12) {
   const of = unitOfField(field);
-  return values.map((value) => toUnit(value, of)).join(" ") + (of.name ? ` ${of.name}` : "");
+  if (field.choices) return field.choices[values[0] ?? 0] ?? "";
+  return values.map((value) => Number(toUnit(value, of).toPrecision(precision))).join(" ") + (of.name ? ` ${of.name}` : "");
 }
 
 /** @param {Settings} s */
-export const inWords = (s) => described(s, (field) => inField(field, listOf(s[field.key])));
+export const inWords = (s) => described(s, (field) => inField(field, listOf(s[field.key]), 5));

@@ -178,6 +178,58 @@ const calls = {
   },
 
   /**
+   * A block that rocks.
+   * @param {number} id
+   * @param {Settings} settings
+   */
+  rock(id, settings) {
+    const summary = library.rock(id, settings);
+    const [rotation, displacement, gap] = [library.blockHistory("rotation"), library.blockHistory("displacement"), library.blockHistory("gap")];
+    const own = library.blockHistory("acceleration");
+    const acceleration = new Float64Array(rotation.length);
+    acceleration.set(own);
+    const events = library.blockHistory("events");
+    return { summary, time: library.times(id, rotation.length - own.length), acceleration, rotation, displacement, gap, events };
+  },
+
+  /**
+   * @param {number} id
+   * @param {Settings} settings
+   * @param {Float64Array} values
+   * @param {boolean} ofMu
+   */
+  rockOver(id, settings, values, ofMu) {
+    return library.rockOver(id, settings, values, ofMu);
+  },
+
+  /**
+   * A cart.
+   * @param {number} id
+   * @param {Settings} settings
+   */
+  roll(id, settings) {
+    const summary = library.roll(id, settings);
+    const [axis, own] = [library.cartHistory("axis"), library.cartHistory("acceleration")];
+    const acceleration = new Float64Array(axis.length);
+    acceleration.set(own);
+    const time = library.times(id, axis.length - own.length);
+    const [transverse, yaw] = [library.cartHistory("transverse"), library.cartHistory("yaw")];
+    const headings = library.cartHistory("headings");
+    const casters = headings.length / axis.length;
+    const each = Array.from({ length: casters }, (_, i) => headings.filter((_, k) => k % casters === i));
+    return { summary, time, acceleration, axis, transverse, yaw, headings: each, plan: library.cartHistory("plan") };
+  },
+
+  /**
+   * @param {number} id
+   * @param {Settings} settings
+   * @param {{first: number, count: number, seed: number}} members
+   */
+  rollAtRandom(id, settings, members) {
+    return library.rollAtRandom(id, settings, members);
+  },
+
+  /**
    * @param {number} id
    * @param {Settings} settings
    */

@@ -866,7 +866,7 @@ test("on paper it is light, without controls, and fits the sheet", async () => {
     controls: [...document.querySelectorAll("button, select, input, .choices, footer")].filter(
       (one) => one.getClientRects().length > 0,
     ).length,
-    pictures: [...document.querySelectorAll("canvas")].map((one) => one.getBoundingClientRect()).map(({ left, right, width }) => ({ left, right, width })),
+    pictures: [...document.querySelectorAll("canvas")].filter((one) => one.getClientRects().length > 0).map((one) => one.getBoundingClientRect()).map(({ left, right, width }) => ({ left, right, width })),
   }));
   assert.equal(found.ink, "rgb(34, 34, 34)");
   assert.equal(found.controls, 0);

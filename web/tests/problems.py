@@ -12,7 +12,10 @@ from typing import Any
 import numpy as np
 import stickslip as ss
 
-LAWS = ("coulomb", "caster", "one-way", "speed", "degrading", "stribeck", "pendulum", "kumar")
+LAWS = (
+    *("coulomb", "caster", "one-way", "speed", "degrading", "stribeck", "pendulum", "kumar"),
+    *("slender-block", "rigid-block", "cart"),
+)
 PLANAR = ("coulomb", "speed", "degrading", "stribeck", "kumar")
 KUMAR = (
     "static_pressure",
@@ -208,9 +211,141 @@ def problem(number: int) -> dict:
     }
 
 
+def rocks(given: dict[str, Any], ground: ss.GroundMotion) -> dict:
+    """A block of the settings, until it rests if it can."""
+    size = {"width": given["width"], "height": given["height"]}
+    if "restitution" in given:
+        size["restitution"] = given["restitution"]
+    if "mu" in given:
+        block = ss.RockingBlock(**size, mu=given["mu"])
+    else:
+        block = ss.SlenderBlock.from_size(**size)
+    response = ss.integrate(block, ground, settle=True)
+    return {
+        "peak_rotation": response.peak_rotation,
+        "peak_ratio": finite(response.peak_rotation_ratio),
+        "overturned": {None: 0, "right": 1, "left": -1}[response.overturned],
+        "overturned_at": response.overturned_at,
+        "impacts": response.impacts,
+        "events": len(response.events),
+        "samples": len(response.rotation),
+        "residual": response.residual or 0.0,
+        "sliding_distance": response.sliding_distance or 0.0,
+        "p": block.p,
+        "alpha": block.alpha,
+        "restitution": block.restitution,
+        "margin": finite(response.margin),
+        "last": float(response.rotation[-1]),
+    }
+
+
+def cart(given: dict[str, Any]) -> ss.Cart:
+    """The cart of the settings."""
+    rolling = {"mu": given["mu"], "rolling_mu": given["rolling_mu"]}
+    size = {"trail": given["trail"], "wheel_width": given["wheel_width"]}
+    locked = (0, 1, 2, 4, 0)[int(given["wheels"])]
+    supports = []
+    for i, (x, y) in enumerate([(1, 1), (1, -1), (-1, 1), (-1, -1)]):
+        at = (x * given["base_length"] / 2, y * given["base_width"] / 2)
+        heading = math.radians(given["headings"][i])
+        if given["wheels"] == 4 and i >= 2:
+            supports.append(ss.FixedWheel(at=at, **rolling))
+        elif i < locked:
+            lock = {"mu": given["mu"], "lock": "both"}
+            supports.append(ss.SwivelCaster(at=at, heading=heading, **size, **lock))
+        else:
+            supports.append(ss.SwivelCaster(at=at, heading=heading, **size, **rolling))
+    long, wide = given["body_length"] / 2, given["body_width"] / 2
+    outline = [(long, wide), (long, -wide), (-long, -wide), (-long, wide)]
+    return ss.Cart(supports, radius_of_gyration=given["gyration"], outline=outline)
+
+
+def rolls(given: dict[str, Any], ground: ss.GroundMotion) -> dict:
+    response = ss.integrate(cart(given), ground, settle=True)
+    return {
+        "peak": response.peak,
+        "peak_yaw": response.peak_yaw,
+        "peak_outline": response.peak_outline,
+        "residual_axis": float(response.residual[0]),
+        "residual_transverse": float(response.residual[1]),
+        "residual_yaw": response.residual_yaw,
+        "time_moving": response.time_moving,
+        "rests": response.rests,
+        "events": len(response.events),
+        "samples": len(response.displacement),
+        "margin": finite(response.margin),
+    }
+
+
+def in_words(work: Callable[[], dict]) -> dict:
+    """What it returns, or its message."""
+    try:
+        return work()
+    except (ValueError, ss.ConvergenceError) as error:
+        return {"error": str(error)}
+
+
+def components(ground: ss.GroundMotion, settings: dict[str, Any], answer: dict) -> dict:
+    return {
+        "settings": settings,
+        "dt": ground.dt,
+        "acceleration": ground.acceleration.tolist(),
+        "transverse": ground.transverse.tolist(),
+        "vertical": None if ground.vertical is None else ground.vertical.tolist(),
+        "answer": answer,
+    }
+
+
+def block_problem(number: int) -> dict:
+    rng = np.random.default_rng([20260102, number])
+    width = float(rng.uniform(0.2, 1))
+    given = {
+        "law": LAWS.index("slender-block"),
+        "width": width,
+        "scale": float(rng.uniform(0.5, 2)),
+    }
+    given["height"] = width * float(rng.uniform(1.5, 6))
+    if number % 2:
+        given |= {"law": LAWS.index("rigid-block"), "mu": float(rng.uniform(0.1, 0.9))}
+    if rng.random() < 0.5:
+        given["restitution"] = float(rng.uniform(0.3, 0.95))
+    given["vertical"] = float(rng.random() < 0.3)
+    ground = motion(rng, bool(given["vertical"]))
+    scaled = ground.scaled(given["scale"])
+    axis = ss.GroundMotion(scaled.acceleration, scaled.dt, vertical=scaled.vertical)
+    return components(ground, given, in_words(lambda: rocks(given, axis)))
+
+
+def cart_problem(number: int) -> dict:
+    rng = np.random.default_rng([20260103, number])
+    given = {
+        "law": LAWS.index("cart"),
+        "scale": float(rng.uniform(0.5, 1.5)),
+        "wheels": float(number % 5),
+        "mu": float(rng.uniform(0.2, 0.8)),
+        "headings": rng.uniform(-180, 180, size=4).tolist(),
+        "base_length": float(rng.uniform(0.4, 1)),
+        "base_width": float(rng.uniform(0.3, 0.6)),
+        "body_length": 1.2,
+        "body_width": 0.7,
+        "gyration": float(rng.uniform(0.2, 0.4)),
+        "trail": float(rng.uniform(0.02, 0.05)),
+        "wheel_width": float(rng.uniform(0.01, 0.03)),
+        "rolling_mu": float(rng.uniform(0.01, 0.05)),
+        "vertical": float(rng.random() < 0.3),
+    }
+    ground = motion(rng, bool(given["vertical"]))
+    return components(ground, given, in_words(lambda: rolls(given, ground.scaled(given["scale"]))))
+
+
 def main() -> None:
     count = int(sys.argv[1])
-    json.dump([problem(number) for number in range(count)], sys.stdout)
+    problems = {
+        "sliders": [problem(number) for number in range(count)],
+        "blocks": [block_problem(number) for number in range(count // 2)],
+        "carts": [cart_problem(number) for number in range(count // 10)],
+    }
+    json.dump(problems, sys.stdout)
 
 
 if __name__ == "__main__":
