@@ -88,6 +88,19 @@ Cart cart_of(const CartSettings& s) {
 /// Whether it comes to rest on any path.
 bool settles(const CartSettings& s) { return s.rolling_mu > 0 || locked(s) > 0; }
 
+/// It stops a motion that would keep the page busy for minutes: some carts stick and slip without end before they rest.
+CartOptions options_of(const CartSettings& s, const GroundMotion& motion) {
+  CartOptions options;
+  options.settle = settles(s);
+  // The library reports after each 4,096 legs and events; most motions have two or three for each sample, some a hundred.
+  options.progress = [left = 12 + motion.samples() / 250]() mutable {
+    if (left-- == 0)
+      throw std::runtime_error(
+          "the wheels stick and slip so often that the page stops; the command and Python continue, see below");
+  };
+  return options;
+}
+
 /// Both horizontal components, and the vertical one if it acts.
 GroundMotion driven_in_plane(const CartSettings& s, const GroundMotion& record) {
   GroundMotion motion = record;
@@ -113,7 +126,7 @@ STICKSLIP_EXPORT(roll) int roll(int number) {
     const auto settings = given_settings<CartSettings>();
     const GroundMotion motion = driven_in_plane(settings, of(number).motion);
     const Cart cart = cart_of(settings);
-    response = integrate(cart, motion, {.settle = settles(settings)});
+    response = integrate(cart, motion, options_of(settings, motion));
     const CartResponse& r = response;
     ground.assign(motion.acceleration().begin(), motion.acceleration().end());
     plan.clear();
@@ -160,7 +173,7 @@ STICKSLIP_EXPORT(roll_at_random) int roll_at_random(int number, int first, int c
       constexpr std::uint32_t purpose = 0x70617261;
       uniforms({static_cast<std::uint64_t>(seed), static_cast<std::uint64_t>(member), purpose}, headings);
       for (double& one : headings) one = (1 - one) * -std::numbers::pi + one * std::numbers::pi;
-      const CartResponse r = integrate(cart.with_headings(headings), motion, {.settle = settles(settings)});
+      const CartResponse r = integrate(cart.with_headings(headings), motion, options_of(settings, motion));
       answer.insert(answer.end(), {r.peak, r.peak_yaw, r.peak_outline});
     }
     return 0;

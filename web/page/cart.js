@@ -195,7 +195,8 @@ function drawArrowUp(ctx, width, part, middle) {
 // ---- headings at random
 
 const [MEMBERS, SEED, PART] = [30, 1, 2];
-/** @type {{key: string, peaks: number[][]} | null} */
+const SLOW = 3000; // of a part [ms]: it keeps the worker from all else
+/** @type {{key: string, peaks: number[][], slow: boolean} | null} */
 let draws = null;
 
 const drawsKey = (/** @type {number} */ id) => `${id} ${JSON.stringify({ ...completed(settings), headings: [] })}`;
@@ -207,14 +208,19 @@ const updateDraws = latest(async () => {
   const [full, id] = problem(settings, row);
   const key = drawsKey(id);
   if (draws?.key === key) return;
-  draws = { key, peaks: [] };
+  draws = { key, peaks: [], slow: false };
   showDraws();
   if (WHEELS_THAT_SWIVEL[full.wheels] === 0) return;
   for (let first = 0; first < MEMBERS; first += PART) {
     await untilIdle();
     if (row !== state.selected || state.broken || kindOf(settings) !== "cart" || key !== drawsKey(id)) return;
+    const begin = performance.now();
     const part = await worker.rollAtRandom(id, full, { first, count: PART, seed: SEED }).catch(() => null);
-    if (!part || draws.key !== key) return;
+    if (draws.key !== key) return;
+    if (!part || performance.now() - begin > SLOW) {
+      draws.slow = true;
+      return showDraws();
+    }
     for (let i = 0; i < PART; ++i) draws.peaks.push([...part.slice(3 * i, 3 * i + 3)]);
     showDraws();
   }
@@ -223,9 +229,11 @@ const updateDraws = latest(async () => {
 const WHEELS_THAT_SWIVEL = [4, 3, 2, 0, 2];
 
 function showDraws() {
-  const { peaks } = draws ?? { peaks: [] };
+  const { peaks, slow } = draws ?? { peaks: [], slow: false };
   const swivels = WHEELS_THAT_SWIVEL[completed(settings).wheels] !== 0;
-  element("title-draws").textContent = swivels
+  element("title-draws").textContent = slow
+    ? "Headings at random take too long for this page: take the command, with --members"
+    : swivels
     ? `The same cart with the headings of its casters at random: ${peaks.length < MEMBERS ? `${peaks.length} of ` : ""}${MEMBERS} draws`
     : "No caster swivels: the headings decide little";
   element("draws").tHead.replaceChildren(...(swivels ? [make("tr", {}, make("th"), make("td", {}, "median"), make("td", {}, "95 %"))] : []));
