@@ -11,12 +11,14 @@ the last terms fall below 1e-28.
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 import sys
 from pathlib import Path
 
 import flint
+import numpy as np
 from flint import arb, arb_poly, arb_series
 
 flint.ctx.prec = 200
@@ -681,6 +683,474 @@ class Rocking(Model):
         return name, state
 
 
+class RigidBlock(Model):
+    """A rigid block: X, Y of its center of mass, theta and their rates. Loads: along, vertical.
+
+    Modes: "rest", "flight", "over", ("slide", s), ("rock", corner), ("slip", corner, s); the right
+    corner is 1, and s the direction in which the base or the corner slips.
+    """
+
+    def __init__(self, system):
+        self.g = arb(system["gravity"])
+        self.mu = arb(system["mu"]) if "mu" in system else None
+        width, height = arb(system["width"]), arb(system["height"])
+        aside, self.h = (arb(c) for c in system.get("center", (0, 0)))
+        if "center" not in system:
+            self.h = height / 2
+        square = (width * width + height * height) / 12
+        self.k2 = arb(system["gyration_radius"]) ** 2 if "gyration_radius" in system else square
+        self.ahead = {1: mid(width / 2 - aside), -1: mid(-width / 2 - aside)}
+        self.lever = arb(system.get("lever", 1))
+
+    def begin(self, start):
+        """A block that leans stands on the corner on that side, at rest."""
+        theta, rate = arb(start.get("rotation", 0)), arb(start.get("rate", 0))
+        side = sign(theta)
+        rx, ry = self.arm(side, theta) if theta != 0 else (arb(0), -self.h)
+        middle = (self.ahead[1] + self.ahead[-1]) / 2
+        x = middle - middle * theta.cos() + self.h * theta.sin()  # the base has not moved yet
+        corner = self.ahead[side] - middle
+        x = mid(x + corner - corner * theta.cos()) if theta != 0 else arb(0)
+        return [x, mid(-ry), theta, mid(-rate * ry), mid(rate * rx), rate]
+
+    def arm(self, side, theta):
+        """From the center of mass to a corner."""
+        c, s = theta.cos(), theta.sin()
+        return c * self.ahead[side] - s * self.h, -s * self.ahead[side] - c * self.h
+
+    def forces(self, mode, state, load):
+        """T, N and theta'' on one corner."""
+        push, weight = load[0], load[1] + self.g
+        w = state[5]
+        rx, ry = self.arm(mode[1], state[2])
+        if mode[0] == "rock":
+            turn = (ry * push - rx * weight) / (self.k2 + rx * rx + ry * ry)
+            return push - turn * ry + w * w * rx, weight + turn * rx + w * w * ry, turn
+        lean = rx + ry * self.mu * mode[2]
+        normal = (weight + w * w * ry) / (1 + rx * lean / self.k2)
+        return normal * self.mu * -mode[2], normal, -lean * normal / self.k2
+
+    def field(self, mode, state, load):
+        still = state[0] * 0
+        if mode in ("rest", "over"):
+            return (still,) * 6
+        push, weight = load[0], load[1] + self.g
+        if mode == "flight":
+            rates = -push, -weight, still
+        elif mode[0] == "slide":
+            rates = -push - weight * self.mu * mode[1], still, still
+        else:
+            tangent, normal, turn = self.forces(mode, state, load)
+            rates = tangent - push, normal - weight, turn
+        return (*state[3:], *rates)
+
+    def guards(self, mode, state, load):
+        push, weight = load[0], load[1] + self.g
+        if mode == "rest":
+            yield "leave", weight
+            for s in (1, -1):
+                if self.mu is not None:
+                    yield "leave", weight * self.mu + push * s
+                yield "leave", weight * abs(self.ahead[s]) + push * self.h * s
+        elif mode == "flight":
+            for side in (1, -1):
+                yield ("lands", side), state[1] + self.arm(side, state[2])[1]
+        elif mode != "over" and mode[0] == "slide":
+            yield "off", weight
+            yield "stop", state[3] * mode[1]
+        elif mode != "over":
+            tangent, normal, _ = self.forces(mode, state, load)
+            yield "base", state[2] * mode[1]
+            yield "off", normal
+            if mode[0] == "slip":
+                yield "stop", (state[3] + state[5] * self.arm(mode[1], state[2])[1]) * mode[2]
+            elif self.mu is not None:
+                yield ("slip", -1), normal * self.mu - tangent
+                yield ("slip", 1), normal * self.mu + tangent
+        if mode not in ("rest", "over") and mode[0] != "slide":
+            yield "fallen", arb.pi() / 2 - state[2] * sign(state[2][0] or state[5][0])
+
+    def watched(self, state):
+        return state[2]
+
+    def final(self, state):
+        """The displacement of the middle of the base."""
+        middle, theta = (self.ahead[1] + self.ahead[-1]) / 2, state[2]
+        return mid(state[0] + middle * theta.cos() - self.h * theta.sin() - middle)
+
+    def on_base(self, state, load):
+        """The base lies on the ground."""
+        push, weight = mid(load[0]), mid(load[1] + self.g)
+        speed = state[3] if abs(state[3]) > arb("1e-40") else arb(0)
+        state = [state[0], self.h, arb(0), speed, arb(0), arb(0)]
+        if not weight > 0:
+            return "flight", state
+        if speed == 0:
+            s = 1 if push < 0 else -1
+            over = abs(push) * self.h - weight * abs(self.ahead[s])
+            slides = self.mu is not None and abs(push) - weight * self.mu > arb("1e-45")
+            if not slides and not over > arb("1e-45"):
+                return "rest", state
+            tips = self.mu is None or self.mu * self.h > abs(self.ahead[s])
+            return self.on_corner(s, state, load) if tips else (("slide", s), state)
+        s = sign(speed)
+        assert self.mu * self.h <= abs(self.ahead[s]), "a base that slides and tips"
+        return ("slide", s), state
+
+    def on_corner(self, side, state, load, slip=None):
+        """One corner is on the ground and does not move into it."""
+        ry = self.arm(side, state[2])[1]
+        state[1] = mid(-ry)
+        across = mid(state[3] + state[5] * ry)
+        if slip is None and abs(across) < arb("1e-40"):
+            tangent, normal, _ = (mid(f) for f in self.forces(("rock", side), state, load))
+            if not normal > 0:
+                return "flight", state
+            if self.mu is None or abs(tangent) <= normal * self.mu:
+                return ("rock", side), state
+            slip = -sign(tangent)
+        elif slip is None:
+            slip = sign(across)
+        mode = ("slip", side, slip)
+        return (mode if self.forces(mode, state, load)[1] > 0 else "flight"), state
+
+    def hit(self, side, state):
+        """An impulse at one corner: the state after it, and where it slips (0: it sticks)."""
+        x, y, theta, vx, vy, w = state
+        rx, ry = self.arm(side, theta)
+        across, down = vx + w * ry, vy - w * rx
+        nn, nt, tt = 1 + rx * rx / self.k2, -rx * ry / self.k2, 1 + ry * ry / self.k2
+        whole = nn * tt - nt * nt
+        t, n = (nt * down - nn * across) / whole, (nt * across - tt * down) / whole
+        slip = 0
+        if self.mu is not None and mid(abs(t)) > mid(self.mu * n):
+            for slip in (-sign(t), sign(t)):
+                n = -down / (nn - nt * self.mu * slip)
+                t = -n * self.mu * slip
+                if n > 0 and (across + tt * t + nt * n) * slip > 0:
+                    break
+            else:
+                raise ArithmeticError("an impact without an answer")
+        turned = mid(w + (ry * t - rx * n) / self.k2)
+        return [x, y, theta, mid(vx + t), mid(vy + n), turned], slip
+
+    def on_both(self, state, load):
+        """Both corners arrive."""
+        state = [state[0], self.h, arb(0), *state[3:]]
+        down = {side: mid(state[4] - state[5] * self.ahead[side]) for side in (1, -1)}
+        for side in sorted(down, key=lambda one: float(down[one])):
+            if not down[side] < 0:
+                continue
+            at = self.lever * self.ahead[side]
+            w = self.k2 * state[5] + self.h * state[3] + at * state[4]
+            w = mid(w / (self.k2 + self.h**2 + at * self.ahead[side]))
+            after, slip = [*state[:3], mid(self.h * w), mid(self.ahead[side] * w), w], 0
+            push, pull = after[4] - state[4], abs(after[3] - state[3])
+            if self.mu is not None and pull > self.mu * push:  # then the lever is 1
+                after, slip = self.hit(side, state)
+            if after[5] * side > 0:
+                if abs(after[5]) < arb("1e-18"):  # the end of infinitely many impacts
+                    along = after[3] if slip else arb(0)
+                    return self.on_base([*after[:3], along, arb(0), arb(0)], load)
+                return self.on_corner(side, after, load, slip or None)
+        impulse = self.mu * abs(state[4]) if self.mu is not None else None
+        if impulse is None or abs(state[3]) <= impulse:
+            return self.on_base([*state[:3], arb(0), arb(0), arb(0)], load)
+        state[3] = mid(state[3] - sign(state[3]) * impulse)
+        return self.on_base(state, load)
+
+    def ready(self, mode, state, load, rate):
+        if mode == "begin":
+            if state[2] == 0:
+                return self.on_base(state, load)
+            return self.on_corner(sign(state[2]), state, load)
+        return mode, state
+
+    def change(self, mode, name, state, load):
+        if name == "fallen":
+            self.fell = sign(state[2])
+            return "over", [*state[:3], arb(0), arb(0), arb(0)]
+        if name == "off":
+            return "flight", state
+        if name == "leave" or (name == "stop" and mode[0] == "slide"):
+            return self.on_base([*state[:3], arb(0), arb(0), arb(0)], load)
+        if name == "base":
+            return self.on_both(state, load)
+        if name == "stop":
+            state[3] = mid(-state[5] * self.arm(mode[1], state[2])[1])
+            return self.on_corner(mode[1], state, load)
+        if name[0] == "slip":
+            return ("slip", mode[1], name[1]), state
+        if abs(state[2]) < arb("1e-30"):
+            return self.on_both(state, load)
+        after, slip = self.hit(name[1], state)
+        return self.on_corner(name[1], after, load, slip or None)
+
+
+# ---- carts
+
+
+class Cart(Model):
+    """A cart in the plane: x, y, yaw, vx, vy, k yaw', and the heading of each caster in the room.
+
+    Loads: along, transverse, vertical. Friction acts along lines, across each wheel and along it.
+    A mode is "rest" or a sign for each line, 0 where it does not slip. The limit that a set of
+    lines without slip reaches is a face of what they can carry: along its normal u they slip, and
+    those across it do not. Lines that meet 0 are decided by Newton's method on a smoothed convex
+    function in doubles; the guards of the next step would be negative if that were wrong.
+    """
+
+    def __init__(self, system):
+        self.g, self.k = arb(system["gravity"]), arb(system["radius_of_gyration"])
+        self.casters, self.lines = [], []  # place, angle, level over the weight, across or along
+        for one in system["supports"]:
+            place, share = [arb(c) for c in one["at"]], arb(one["share"])
+            steered = "reach" in one
+            angle = 6 + len(self.casters) if steered else arb(one["heading"])
+            if steered:
+                self.casters.append((place, arb(one["heading"]), arb(one["reach"])))
+            self.lines.append((place, angle, share * arb(one["side_mu"]), True))
+            if one.get("rolling_mu"):
+                self.lines.append((place, angle, share * arb(one["rolling_mu"]), False))
+
+    def begin(self, start):
+        x, v = start.get("displacement", [0, 0]), start.get("velocity", [0, 0])
+        yaw, rate = arb(start.get("rotation", 0)), arb(start.get("rate", 0))
+        headings = [yaw + heading for _, heading, _ in self.casters]
+        return [*(arb(c) for c in (*x, yaw)), *(arb(c) for c in v), rate * self.k, *headings]
+
+    def geometry(self, state):
+        """For each line its row, slip rate and the rate of that without forces; and the rates of
+        the headings."""
+        _, _, yaw, vx, vy, kw = state[:6]
+        c, s, w = yaw.cos(), yaw.sin(), kw / self.k
+        found, turning, last = [], [], None
+        for place, angle, _, across in self.lines:
+            key = id(place)
+            if key != last:
+                last = key
+                ax, ay = c * place[0] - s * place[1], s * place[0] + c * place[1]
+                px, py = vx - w * ay, vy + w * ax
+                if isinstance(angle, int):
+                    ex, ey = state[angle].cos(), state[angle].sin()
+                    rate = (py * ex - px * ey) / self.casters[angle - 6][2]
+                    turning.append(rate)
+                else:
+                    ca, sa = angle.cos(), angle.sin()
+                    ex, ey, rate = c * ca - s * sa, s * ca + c * sa, w
+            dx, dy = (-ey, ex) if across else (ex, ey)
+            # The direction turns by `rate`, and the place goes round the center of mass.
+            free = rate * (dx * py - dy * px) - w * w * (dx * ax + dy * ay)
+            row = dx, dy, (ax * dy - ay * dx) / self.k
+            found.append((row, dx * px + dy * py, free))
+        return found, turning
+
+    def basis(self, rows, stuck):
+        """One or two lines without slip on which the others depend."""
+        chosen = []
+        for j in stuck:
+            if not chosen or (
+                len(chosen) == 1 and size(cross(rows[chosen[0]], rows[j])) > arb("1e-9")
+            ):
+                chosen.append(j)
+        return chosen
+
+    def pull(self, mode, state, load):
+        """Geometry, the load with the friction that is known, and the basis with its rates."""
+        lines, turning = self.geometry(state)
+        weight = load[2] + self.g
+        free = [-load[0], -load[1], load[0] * 0]
+        for (row, _, _), (_, _, level, _), s in zip(lines, self.lines, mode):
+            if s:
+                free = [f - weight * level * s * r for f, r in zip(free, row)]
+        stuck = [j for j, s in enumerate(mode) if not s]
+        first = [[mid(start(c)) for c in row] for row, _, _ in lines]
+        return lines, turning, free, stuck, self.basis(first, stuck)
+
+    def hold(self, lines, free, basis):
+        """The acceleration that keeps the slip rates of the basis at zero."""
+        rows = [lines[j][0] for j in basis]
+        need = [dot(row, free) + lines[j][2] for row, j in zip(rows, basis)]
+        if not basis:
+            return free
+        if len(basis) == 1:
+            carried = [need[0] / dot(rows[0], rows[0])]
+        else:
+            a, b, d = dot(rows[0], rows[0]), dot(rows[0], rows[1]), dot(rows[1], rows[1])
+            whole = a * d - b * b
+            carried = [
+                (d * need[0] - b * need[1]) / whole,
+                (a * need[1] - b * need[0]) / whole,
+            ]
+        for row, force in zip(rows, carried):
+            free = [f - force * r for f, r in zip(free, row)]
+        return free
+
+    def field(self, mode, state, load):
+        still = state[0] * 0
+        if mode == "rest":
+            return (still,) * len(state)
+        lines, turning, free, _, basis = self.pull(mode, state, load)
+        rates = self.hold(lines, free, basis)
+        return (state[3], state[4], state[5] / self.k, *rates, *turning)
+
+    def guards(self, mode, state, load):
+        weight = load[2] + self.g
+        yield "off", weight
+        if mode == "rest":
+            rows = [[mid(start(c)) for c in row] for row, _, _ in self.geometry(state)[0]]
+            for i, j in itertools.combinations(range(len(rows)), 2):
+                u = cross(rows[i], rows[j])
+                if size(u) > arb("1e-9"):
+                    reach = [dot(u, row) for row in rows]
+                    total = sum((abs(r) * line[2] for r, line in zip(reach, self.lines)), arb(0))
+                    for s in (1, -1):
+                        push = (load[0] * u[0] + load[1] * u[1]) * s
+                        yield ("face", signs(reach, s)), weight * total + push
+            return
+        lines, _, free, stuck, basis = self.pull(mode, state, load)
+        for j, s in enumerate(mode):
+            if s:
+                yield ("meets", j), lines[j][1] * s
+        if not basis:
+            return
+        held = self.hold(lines, free, basis)
+        force = [f - a for f, a in zip(free, held)]
+        rows = {j: lines[j][0] for j in stuck}
+        if len(basis) == 1:
+            normals = [rows[basis[0]]]
+        else:
+            w = cross(rows[basis[0]], rows[basis[1]])
+            normals = [cross(w, rows[j]) for j in stuck]
+        for u in normals:
+            reach = {j: dot(u, rows[j]) for j in stuck}
+            now = {j: mid(start(r)) for j, r in reach.items()}
+            carried = dot(u, force)
+            total = carried * 0
+            for j in stuck:
+                if abs(now[j]) > arb("1e-12"):
+                    total = total + reach[j] * sign(now[j]) * weight * self.lines[j][2]
+            for s in (1, -1):
+                after = list(mode)
+                for j in stuck:
+                    after[j] = 0 if abs(now[j]) < arb("1e-12") else s * sign(now[j])
+                yield ("face", tuple(after)), total - carried * s
+
+    def watched(self, state):
+        return state[0] * state[0] + state[1] * state[1]
+
+    def peak(self, largest):
+        return mid(largest.sqrt())
+
+    def from_rest(self, state, load):
+        """At zero velocity: at rest if every face holds, else off along the least of all."""
+        state = [*state[:3], arb(0), arb(0), arb(0), *state[6:]]
+        below = [g for name, g in self.guards("rest", state, load) if mid(g) < arb("-1e-45")]
+        if not below:
+            return "rest", state
+        return self.decide(range(len(self.lines)), state, load, (0,) * len(self.lines)), state
+
+    def decide(self, among, state, load, mode):
+        """The signs of lines whose slip rate is zero: where the acceleration takes them."""
+        lines, _ = self.geometry(state)
+        weight = load[2] + self.g
+        free = [-load[0], -load[1], arb(0)]
+        for j, s in enumerate(mode):
+            if s and j not in among:
+                row, level = lines[j][0], self.lines[j][2]
+                free = [f - weight * level * s * r for f, r in zip(free, row)]
+        rows = np.array([[float(mid(c)) for c in lines[j][0]] for j in among])
+        rest = np.array([float(mid(lines[j][2])) for j in among])
+        levels = np.array([float(mid(weight * self.lines[j][2])) for j in among])
+        slips = least(np.array([float(mid(f)) for f in free]), rows, rest, levels)
+        after = list(mode)
+        for j, slip in zip(among, slips):
+            after[j] = 0 if abs(slip) < 1e-7 else int(np.sign(slip))
+        return tuple(after)
+
+    def ready(self, mode, state, load, rate):
+        if mode == "begin":
+            lines, _ = self.geometry(state)
+            slips = [mid(slip) for _, slip, _ in lines]
+            still = [j for j, slip in enumerate(slips) if abs(slip) < arb("1e-40")]
+            if len(still) == len(slips):
+                return self.from_rest(state, load)
+            now = tuple(0 if j in still else sign(slip) for j, slip in enumerate(slips))
+            return self.decide(still, state, load, now), state
+        return mode, state
+
+    def change(self, mode, name, state, load):
+        assert name != "off", "a cart that leaves the ground"
+        if name[0] == "face":
+            return name[1], self.clean(mode, state) if mode != "rest" else state
+        lines, _ = self.geometry(state)
+        if all(abs(v) < arb("1e-22") for v in state[3:6]):
+            return self.from_rest(state, load)
+        among = [j for j, s in enumerate(mode) if not s or abs(lines[j][1]) < arb("1e-25")]
+        state = self.clean([0 if j in among else 1 for j in range(len(mode))], state)
+        return self.decide(among, state, load, mode), state
+
+    def clean(self, mode, state):
+        """Without what rounding left of the slip of lines that do not slip."""
+        rows = [[mid(c) for c in row] for row, _, _ in self.geometry(state)[0]]
+        basis = self.basis(rows, [j for j, s in enumerate(mode) if not s])
+        lines = [(row, arb(0), arb(0)) for row in rows]
+        return [*state[:3], *(mid(v) for v in self.hold(lines, state[3:6], basis)), *state[6:]]
+
+
+def start(one):
+    """The number at the start of a series."""
+    return one[0] if isinstance(one, arb_series) else one
+
+
+def dot(a, b):
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a, b):
+    return [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+
+
+def size(a):
+    return mid(dot(a, a).sqrt())
+
+
+def signs(reach, s):
+    return tuple(0 if abs(r) < arb("1e-12") else s * sign(r) for r in reach)
+
+
+def least(free, rows, rest, levels):
+    """Slip accelerations r.a + rest where |a - free|^2/2 + sum of levels |r.a + rest| is least.
+
+    The absolute values are rounded, step by step less; what does not slip falls with the rounding.
+    """
+    a, eps = free.copy(), 1.0
+    while eps > 1e-10:
+        for _ in range(100):
+            slip = rows @ a + rest
+            length = np.hypot(slip, eps)
+            gradient = a - free + (levels * slip / length) @ rows
+            hessian = np.eye(3) + (rows.T * (levels * eps**2 / length**3)) @ rows
+            step = -np.linalg.solve(hessian, gradient)
+            part, fall = 1.0, gradient @ step
+            if -fall < 1e-26:
+                break
+            value = ((a - free) ** 2).sum() / 2 + levels @ length
+            while part > 1e-8:
+                b = a + part * step
+                there = ((b - free) ** 2).sum() / 2 + levels @ np.hypot(rows @ b + rest, eps)
+                if there <= value + 1e-4 * part * fall + 1e-15:
+                    break
+                part /= 2
+            a = a + part * step
+        eps /= 4
+    return rows @ a + rest
+
+
 MODELS = {
     "slider": Slider,
     "planar": Planar,
@@ -688,6 +1158,8 @@ MODELS = {
     "isolated": Isolated,
     "floor": OnFloor,
     "rocking": Rocking,
+    "rigid_block": RigidBlock,
+    "cart": Cart,
 }
 
 
@@ -701,7 +1173,7 @@ def answer(problem, order=ORDER, fineness=1, leave=50):
     along = ground["along"]
     none = [0.0] * len(along)
     components = [along]
-    if kind == "planar":
+    if kind in ("planar", "cart"):
         components.append(ground.get("transverse", none))
     components.append(ground.get("vertical", none))
     start = problem.get("start", {})
@@ -712,6 +1184,8 @@ def answer(problem, order=ORDER, fineness=1, leave=50):
         state = [*(x if len(x) == 2 else (0, 0)), *(v if len(v) == 2 else (0, 0))]
     elif kind == "rocking":
         state = [start.get("rotation", 0), start.get("rate", 0)]
+    elif kind in ("rigid_block", "cart"):
+        state = model.begin(start)
     else:
         more = {"series": lambda: len(model.parts), "floor": lambda: 2}.get(
             kind, lambda: 2 * len(model.modes)
@@ -723,6 +1197,13 @@ def answer(problem, order=ORDER, fineness=1, leave=50):
     if kind == "rocking":
         fell = getattr(model, "fell", 0)
         return {"overturned": [arb(fell)], "final_rotation": [state[0]], "peak_rotation": [peak]}
+    if kind == "rigid_block":
+        fell = {"overturned": [arb(getattr(model, "fell", 0))]}
+        moved = {"final_displacement": [model.final(state)], "final_rotation": [state[2]]}
+        return {**fell, **moved, "peak_rotation": [peak]}
+    if kind == "cart":
+        moved = {"final_displacement": state[:2], "final_rotation": [state[2]]}
+        return {**moved, "peak_displacement": [peak], "events": [arb(events)]}
     final = state[:2] if kind == "planar" else state[:1]
     return {"final_displacement": final, "peak_displacement": [peak], "events": [arb(events)]}
 

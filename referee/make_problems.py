@@ -178,6 +178,43 @@ def rocking(p, alpha, restitution, **more):
     }
 
 
+def rigid(width, height, mu, **more):
+    return {
+        "kind": "rigid_block",
+        "gravity": G,
+        "width": width,
+        "height": height,
+        "mu": mu,
+        **more,
+    }
+
+
+def caster(x, y, heading, share=0.25, side_mu=0.1, rolling_mu=0.01, reach=0.04):
+    return {
+        "at": [x, y],
+        "share": share,
+        "heading": heading,
+        "side_mu": side_mu,
+        "rolling_mu": rolling_mu,
+        "reach": reach,
+    }
+
+
+def wheel(x, y, share=0.25, side_mu=0.5, rolling_mu=0.01):
+    one = caster(x, y, 0.0, share, side_mu, rolling_mu)
+    del one["reach"]
+    return one
+
+
+def cart(*supports, radius=0.25):
+    return {
+        "kind": "cart",
+        "gravity": G,
+        "radius_of_gyration": radius,
+        "supports": list(supports),
+    }
+
+
 def bearing(*elements):
     keys = ("radius", "mu", "capacity")
     return slider({"kind": "series", "elements": [dict(zip(keys, e)) for e in elements]})
@@ -194,7 +231,7 @@ def triple(radii, mu, capacities):
     )
 
 
-STICK, RECORD, SPEED, VERTICAL, TWO, SPRINGS, STRUCTURES, ROCKING = CLASSES
+STICK, RECORD, SPEED, VERTICAL, TWO, SPRINGS, STRUCTURES, ROCKING, CARTS = CLASSES
 MILLIMETER = 1e-3
 
 
@@ -694,6 +731,136 @@ def listed():
         {},
     )
 
+    # ---- rigid blocks
+    yield (
+        ROCKING,
+        "block-slides",
+        "A rigid block with little friction only slides.",
+        rigid(0.6, 1.5, 0.2),
+        burst(),
+        {},
+    )
+    yield (
+        ROCKING,
+        "block-released",
+        "A rigid block is released from a rotation; it does not slip, and its impacts are plastic.",
+        rigid(0.6, 1.8, 1.2),
+        constant(0.0, 4.0),
+        {"start": {"rotation": 0.15}, "uncertain": 1e-10},
+    )
+    yield (
+        ROCKING,
+        "block-slips",
+        "It rocks on corners that slip.",
+        rigid(0.5, 1.5, 0.36),
+        burst(1.5, duration=6.0),
+        {"uncertain": 1e-9},
+    )
+    yield (
+        ROCKING,
+        "block-flies",
+        "Strong vertical motion throws it up while it rocks.",
+        rigid(0.8, 2.0, 0.7),
+        burst(1.2, duration=5.0, vertical=11.0),
+        {"uncertain": 1e-9},
+    )
+    yield (
+        ROCKING,
+        "block-off-center",
+        "Its center of mass is neither in the middle nor half way up.",
+        rigid(0.7, 1.6, 0.8, center=[0.08, 0.7], gyration_radius=0.45),
+        burst(1.9, duration=6.0),
+        {"uncertain": 1e-9},
+    )
+    yield (
+        ROCKING,
+        "block-lever",
+        "Its impacts act at 0.7 of the way to the new corner, and take less.",
+        rigid(0.6, 1.8, 0.9, lever=0.7),
+        burst(1.6, duration=5.0),
+        {"uncertain": 1e-9},
+    )
+
+    # ---- carts
+    yield (
+        CARTS,
+        "cart-stays",
+        "Four casters, braced: the load is below all that they can carry. It must not move.",
+        cart(
+            caster(0.3, 0.2, 1.2),
+            caster(0.3, -0.2, -1.3),
+            caster(-0.3, 0.2, 0.3),
+            caster(-0.3, -0.2, 2.9),
+        ),
+        sine(0.25, 5.0, duration=8.0, transverse=(0.25, 5.0, 1.5707963)),
+        {},
+    )
+    yield (
+        CARTS,
+        "cart-casters",
+        "Four casters at four headings.",
+        cart(
+            caster(0.3, 0.2, 0.3),
+            caster(0.3, -0.2, 2.0),
+            caster(-0.3, 0.2, -2.5),
+            caster(-0.3, -0.2, -0.7),
+        ),
+        hum(0.7, duration=2.0, transverse=0.7),
+        {"uncertain": 1e-11},
+    )
+    yield (
+        CARTS,
+        "cart-wheels",
+        "Two casters in front and two fixed wheels behind: it goes along curves.",
+        cart(
+            caster(0.3, 0.2, 0.3),
+            caster(0.3, -0.2, 2.0),
+            wheel(-0.3, 0.2),
+            wheel(-0.3, -0.2),
+        ),
+        hum(0.8, duration=2.0, transverse=-0.6),
+        {"uncertain": 1e-11},
+    )
+    yield (
+        CARTS,
+        "cart-unequal",
+        "Three casters of unequal loads, levels and reaches.",
+        cart(
+            caster(0.3, 0.0, 0.5, share=0.4, side_mu=0.12, reach=0.03),
+            caster(-0.2, 0.25, 2.2, share=0.3, side_mu=0.08, reach=0.05),
+            caster(-0.2, -0.25, -1.1, share=0.3, side_mu=0.1, rolling_mu=0.02),
+            radius=0.22,
+        ),
+        hum(-0.7, duration=2.0, transverse=0.6),
+        {"uncertain": 1e-11},
+    )
+    yield (
+        CARTS,
+        "cart-vertical",
+        "Four casters under three components.",
+        cart(
+            caster(0.3, 0.2, -0.4),
+            caster(0.3, -0.2, 1.1),
+            caster(-0.3, 0.2, 2.6),
+            caster(-0.3, -0.2, -2.1),
+        ),
+        hum(0.7, duration=2.0, transverse=-0.7, vertical=4.0),
+        {"uncertain": 1e-11},
+    )
+    yield (
+        CARTS,
+        "cart-spins",
+        "It spins on the spot, its wheels trail on a circle, and friction brakes it to rest.",
+        cart(
+            *(
+                caster(x, y, round(math.atan2(y, x) + math.pi / 2 + math.asin(0.04 / 0.35), 12))
+                for x, y in ((0.28, 0.21), (0.28, -0.21), (-0.28, 0.21), (-0.28, -0.21))
+            )
+        ),
+        constant(0.0, 1.5, transverse=0.0),
+        {"start": {"velocity": [0.0, 0.0], "rate": 1.5}, "uncertain": 1e-9},
+    )
+
 
 def sine_cycle(times_uplift):
     n = -0.2 * times_uplift * G * np.sin(2 * np.pi * np.arange(41) / 40)
@@ -813,10 +980,10 @@ def make(entry):
     fell = "overturned" in first and first["overturned"][0] != 0
     if fell:
         first = {"overturned": first["overturned"]}
-    elif group == ROCKING and system["kind"] == "rocking" and name != "rocking-stays":
-        pass
     peak = first.get("peak_displacement") or first.get("peak_rotation") or [1.0]
     scale = abs(float(independent.mid(peak[0])))
+    if system["kind"] in ("rigid_block", "cart"):  # whichever is larger, in m or rad
+        scale = max([scale, *(float(abs(independent.mid(v))) for n in first for v in first[n])])
     start = more.get("start", {})
     moved = (
         scale > abs(start.get("displacement", [0.0])[0]) or "velocity" in start or group != STICK
@@ -831,6 +998,7 @@ def make(entry):
     still = (group == STICK and name != "stick-after-slip") or name in (
         "isolated-stuck",
         "rocking-stays",
+        "cart-stays",
     )
     answers = {}
     for quantity, values in first.items():

@@ -16,10 +16,10 @@ PROBLEMS = referee.problems(FOLDER)
 SCIPY = 2e-6  # of the scale: it ends a slip in the plane at 3e-8 m/s
 
 
-def test_there_are_sixty_problems_in_eight_classes():
-    assert len(PROBLEMS) == 60
+def test_there_are_69_problems_in_nine_classes():
+    assert len(PROBLEMS) == 69
     assert {one.group for one in PROBLEMS} == set(referee.CLASSES)
-    assert len({one.id for one in PROBLEMS}) == 60
+    assert len({one.id for one in PROBLEMS}) == 69
     assert all((FOLDER / f"{one.id}.json").is_file() for one in PROBLEMS)
 
 

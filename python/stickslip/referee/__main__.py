@@ -59,7 +59,8 @@ def main(arguments: list[str] | None = None) -> int:
     print()
     print(report.settings(found))
     if asked.picture:
-        report.plot(found).savefig(asked.picture)
+        figure: Any = report.plot(found)
+        figure.savefig(asked.picture)
     return 0
 
 

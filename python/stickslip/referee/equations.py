@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from importlib import import_module
 from typing import Any
 
 State = list[Any]
@@ -285,7 +286,7 @@ class Series(Model):
 
     def __init__(self, system: Mapping[str, Any], numbers: Numbers) -> None:
         super().__init__(system, numbers)
-        self.parts = [
+        self.parts: list[tuple[Any, ...]] = [
             tuple(numbers.number(one[name]) for name in ("radius", "mu", "capacity"))
             for one in system["friction"]["elements"]
         ]
@@ -529,6 +530,424 @@ class Rocking(Model):
         return name, [zero + name * self.on.nudge, zero]
 
 
+class RigidBlock(Model):
+    """A rigid block on the corners of its base: x of its middle or corner, theta and their rates.
+
+    The state is that of the center of mass: X, Y, theta, X', Y', theta'. Modes are "rest", "over",
+    "flight", (0, s) sliding on its base, (c, 0) turning about the corner c, and (c, s) while that
+    slips in the direction s.
+    """
+
+    names = ("rotation",)
+
+    def __init__(self, system: Mapping[str, Any], numbers: Numbers) -> None:
+        super().__init__(system, numbers)
+        number = numbers.number
+        width, height = system["width"], system["height"]
+        aside, up = system.get("center", (0.0, height / 2))
+        self.up = number(up)
+        self.foot = {1: number(width / 2 - aside), -1: number(-width / 2 - aside)}
+        self.inertia = (
+            number(system.get("gyration_radius", math.hypot(width, height) / math.sqrt(12))) ** 2
+        )
+        self.mu = None if system.get("mu") is None else number(system["mu"])
+        self.lever = number(system.get("lever", 1.0))
+        self.fell = 0
+
+    def begin(self, start: Mapping[str, Any]) -> State:
+        on = self.on
+        theta, rate = on.number(start.get("rotation", 0.0)), on.number(start.get("rate", 0.0))
+        if on.value(theta) == 0:
+            return [theta, self.up, theta, theta, theta, rate]
+        x, y = self.corner(self.sign(theta), theta)
+        # The corner stands where it stood while the base was down.
+        return [self.foot[self.sign(theta)] - x, -y, theta, -rate * y, rate * x, rate]
+
+    def corner(self, side: int, theta: Any) -> tuple[Any, Any]:
+        """From the center of mass."""
+        sine, cosine = self.on.sin(theta), self.on.cos(theta)
+        x, y = self.foot[side], -self.up
+        return x * cosine + y * sine, y * cosine - x * sine
+
+    def contact(self, mode: Any, state: State, load: Load) -> tuple[Any, Any, Any]:
+        """Friction and pressure on the corner, per unit mass, and the angular acceleration."""
+        side, slip = mode
+        n, weight, w = load[0], load[2] + self.g, state[5]
+        x, y = self.corner(side, state[2])
+        if slip:
+            drag = self.mu * -slip  # the friction over the pressure
+            pressure = (weight + w * w * y) / (1 + x * (x - y * drag) / self.inertia)
+            return drag * pressure, pressure, (y * drag - x) * pressure / self.inertia
+        turn = (y * n - x * weight) / (self.inertia + x * x + y * y)
+        return n - turn * y + w * w * x, weight + turn * x + w * w * y, turn
+
+    def field(self, mode: Any, state: State, load: Load) -> Sequence[Any]:
+        zero = state[0] * 0
+        n, weight = load[0], load[2] + self.g
+        if mode in ("rest", "over"):
+            return (zero,) * 6
+        if mode == "flight":
+            return (*state[3:], -n, -weight, zero)
+        if mode[0] == 0:
+            return (state[3], zero, zero, -n - weight * self.mu * mode[1], zero, zero)
+        friction, pressure, turn = self.contact(mode, state, load)
+        return (*state[3:], friction - n, pressure - weight, turn)
+
+    def guards(self, mode: Any, state: State, load: Load, now: State) -> Guards:
+        n, weight = load[0], load[2] + self.g
+        if mode == "rest":
+            yield "off", weight
+            for s in (1, -1):
+                if self.mu is not None:
+                    yield ("slides", s), weight * self.mu + n * s
+                yield ("tips", s), weight * self.foot[s] * s + n * s * self.up
+        elif mode == "flight":
+            for side in (1, -1):
+                yield ("lands", side), state[1] + self.corner(side, state[2])[1]
+        elif mode != "over" and mode[0] == 0:
+            yield "off", weight
+            yield "stop", state[3] * mode[1]
+        elif mode != "over":
+            side, slip = mode
+            friction, pressure, _ = self.contact(mode, state, load)
+            yield "base", state[2] * side
+            yield "off", pressure
+            yield "fallen", self.on.pi / 2 - state[2] * side
+            if slip:
+                yield "stop", (state[3] + state[5] * self.corner(side, state[2])[1]) * slip
+            elif self.mu is not None:
+                yield ("slips", -1), pressure * self.mu - friction
+                yield ("slips", 1), pressure * self.mu + friction
+
+    def watched(self, state: State) -> Any:
+        return state[2]
+
+    def turning(self, state: State) -> Any:
+        return state[5]
+
+    def displacement(self, state: State) -> Any:
+        """Of the middle of the base."""
+        middle = (self.foot[1] + self.foot[-1]) / 2
+        sine, cosine = self.on.sin(state[2]), self.on.cos(state[2])
+        return state[0] + middle * cosine - self.up * sine - middle
+
+    def final(self, state: State) -> list[Any]:
+        return [state[2]]
+
+    def first(self, state: State, load: Load) -> tuple[Any, State]:
+        if self.on.value(state[2]) == 0:
+            return self.at_rest(state, load)
+        return self.stand(self.sign(state[2]), state, load, 0)
+
+    def at_rest(self, state: State, load: Load) -> tuple[Any, State]:
+        """On its base: at rest, or sliding with the speed that it has, or off."""
+        value, zero, on = self.on.value, self.on.number(0.0), self.on
+        n, weight, speed = value(load[0]), value(load[2] + self.g), value(state[3])
+        flat = [state[0], self.up, zero, zero, zero, zero]
+        if weight <= 0:
+            return "flight", [*flat[:3], state[3], zero, zero]
+        if abs(speed) > on.speed:
+            s = 1 if speed > 0 else -1
+            return (0, s), [*flat[:3], state[3], zero, zero]
+        s = -1 if n > 0 else 1
+        if self.mu is not None and abs(n) - value(self.mu) * weight > on.slack:
+            return self.leave("slides", s, flat, load)
+        if abs(n) * value(self.up) - weight * value(self.foot[s] * s) > on.slack:
+            return self.leave("tips", s, flat, load)
+        return "rest", flat
+
+    def leave(self, way: str, s: int, flat: State, load: Load) -> tuple[Any, State]:
+        """From rest to the side s."""
+        nudge, zero = self.on.number(0.0) + s * self.on.nudge, self.on.number(0.0)
+        slides = self.mu is not None and self.on.value(self.mu * self.up - self.foot[s] * s) <= 0
+        if way == "slides" and slides:
+            return (0, s), [*flat[:3], nudge, zero, zero]
+        y = self.corner(s, nudge)[1]
+        return self.stand(s, [flat[0], -y, nudge, zero, zero, zero], load, 0)
+
+    def stand(self, side: int, state: State, load: Load, slip: int) -> tuple[Any, State]:
+        """On one corner, that slips, or not, or moves off to a side."""
+        value = self.on.value
+        if not slip:
+            friction, pressure, _ = self.contact((side, 0), state, load)
+            if value(pressure) <= 0:
+                return "flight", state
+            if self.mu is None or abs(value(friction)) <= value(self.mu * pressure):
+                return (side, 0), state
+            slip = -self.sign(friction)
+        if value(self.contact((side, slip), state, load)[1]) <= 0:
+            return "flight", state
+        return (side, slip), state
+
+    def struck(self, side: int, state: State) -> tuple[State, int]:
+        """An impulse stops a corner: Coulomb's law for impulses. The state, and how it slips."""
+        value = self.on.value
+        x, y = self.corner(side, state[2])
+        vx, vy, w, k = state[3], state[4], state[5], self.inertia
+        slide, fall = value(vx + w * y), value(vy - w * x)
+        # About the corner the moment of momentum stays.
+        after = (k * w - y * vx + x * vy) / (k + x * x + y * y)
+        pull, push = value(-after * y - vx), value(after * x - vy)
+        if self.mu is None or abs(pull) <= value(self.mu) * push:
+            return [*state[:3], -after * y, after * x, after], 0
+        for slip in (1, -1) if pull < 0 else (-1, 1):
+            ratio = self.mu * -slip
+            push = -fall / (1 + x * x / k - x * y * ratio / k)
+            turned = w + (y * ratio - x) * push / k
+            moved = vx + ratio * push
+            if value(push) > 0 and value(moved + turned * y) * slip > 0:
+                return [*state[:3], moved, vy + push, turned], slip
+        raise ArithmeticError(f"an impact at {slide:g} m/s, {fall:g} m/s that no law describes")
+
+    def landed(self, state: State, load: Load) -> tuple[Any, State]:
+        """Both corners are down: one of them stays, if the other then leaves; or both do."""
+        value, zero = self.on.value, self.on.number(0.0)
+        state = [state[0], self.up, zero, *state[3:]]
+        speeds = {s: value(state[4] - state[5] * self.foot[s]) for s in (1, -1)}
+        for side in sorted(speeds, key=lambda one: speeds[one]):
+            if speeds[side] >= 0:
+                continue
+            foot, inner = self.foot[side], self.foot[side] * self.lever
+            after = self.inertia * state[5] + self.up * state[3] + inner * state[4]
+            after = after / (self.inertia + self.up**2 + inner * foot)
+            push, pull = value(foot * after - state[4]), value(self.up * after - state[3])
+            found, slip = [*state[:3], self.up * after, foot * after, after], 0
+            if self.mu is not None and abs(pull) > value(self.mu) * push:
+                found, slip = self.struck(side, state)
+            if value(found[5]) * side > self.on.speed:
+                theta = zero + side * 1e-12 * found[5] * found[5]
+                found[1:3] = -self.corner(side, theta)[1], theta
+                return self.stand(side, found, load, slip)
+        impulse = math.inf if self.mu is None else abs(value(state[4])) * value(self.mu)
+        if abs(value(state[3])) <= max(impulse, self.on.speed):
+            state[3] = zero
+        else:
+            state[3] = state[3] - self.sign(state[3]) * impulse
+        return self.at_rest(state, load)
+
+    def change(self, mode: Any, name: Any, state: State, load: Load) -> tuple[Any, State]:
+        zero = self.on.number(0.0)
+        if name == "fallen":
+            self.fell = self.sign(state[2])
+            return "over", [*state[:3], zero, zero, zero]
+        if name == "off":
+            # Off the ground, by next to nothing.
+            return "flight", [state[0], state[1] + self.on.nudge, *state[2:]]
+        if name[0] in ("slides", "tips"):
+            return self.leave(name[0], name[1], state, load)
+        if name == "stop" and mode[0] == 0:
+            return self.at_rest([*state[:3], zero, zero, zero], load)
+        if name == "base":
+            return self.landed(state, load)
+        if name == "stop":
+            side = mode[0]
+            x, y = self.corner(side, state[2])
+            state = [state[0], -y, state[2], -state[5] * y, state[5] * x, state[5]]
+            found, state = self.stand(side, state, load, 0)
+            return found, self.nudged(found, state)
+        if name[0] == "slips":
+            found = mode[0], name[1]
+            return found, self.nudged(found, state)
+        if abs(self.on.value(state[2])) < 1e-10:
+            return self.landed(state, load)
+        struck, slip = self.struck(name[1], state)
+        return self.stand(name[1], struck, load, slip)
+
+    def nudged(self, mode: Any, state: State) -> State:
+        """With next to no speed in the direction in which a corner begins to slip."""
+        slip = 0 if isinstance(mode, str) else mode[1]
+        return [*state[:3], state[3] + slip * self.on.nudge, *state[4:]]
+
+
+class Cart(Model):
+    """A cart in the plane: x, y, yaw, their rates, and the heading of each caster in the room.
+
+    A mode is "rest", or the sign with which each line of friction slips, 0 where it does not. A
+    wheel has a line across it, and one along it. Lines that do not slip have at most two
+    independent ones among them, and all carry what they can before one of them begins to slip.
+    """
+
+    def __init__(self, system: Mapping[str, Any], numbers: Numbers) -> None:
+        super().__init__(system, numbers)
+        self.k2 = system["radius_of_gyration"] ** 2
+        self.wheels = list(system["supports"])
+        self.levels: list[float] = []
+        for one in self.wheels:
+            self.levels += [one["share"] * one["side_mu"], one["share"] * one["rolling_mu"]]
+        self.swivel = [k for k, one in enumerate(self.wheels) if "reach" in one]
+
+    def begin(self, start: Mapping[str, Any]) -> State:
+        vx, vy = start.get("velocity", [0.0, 0.0])
+        headings = [float(self.wheels[k]["heading"]) for k in self.swivel]
+        return [0.0, 0.0, 0.0, vx, vy, start.get("rate", 0.0), *headings]
+
+    def lines(self, state: State) -> tuple[list[list[float]], list[float], list[float]]:
+        """Rows of each line (force and moment of a unit), its slip rate and the trend of that
+        without forces."""
+        sin, cos = self.on.sin, self.on.cos
+        _, _, yaw, vx, vy, w = state[:6]
+        c, s = cos(yaw), sin(yaw)
+        rows: list[list[float]] = []
+        slips: list[float] = []
+        trends: list[float] = []
+        for k, one in enumerate(self.wheels):
+            x, y = one["at"]
+            x, y = c * x - s * y, s * x + c * y
+            px, py = vx - w * y, vy + w * x
+            if k in self.swivel:
+                angle = state[6 + self.swivel.index(k)]
+                turn = (py * cos(angle) - px * sin(angle)) / one["reach"]
+            else:
+                angle, turn = yaw + one["heading"], w
+            for dx, dy in ((-sin(angle), cos(angle)), (cos(angle), sin(angle))):
+                rows.append([dx, dy, x * dy - y * dx])
+                slips.append(dx * px + dy * py)
+                trends.append(turn * (dx * py - dy * px) - w * w * (dx * x + dy * y))
+        return rows, slips, trends
+
+    def dot(self, a: Sequence[float], b: Sequence[float]) -> float:
+        """Of two forces with moments: the acceleration that one gives along the other."""
+        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] / self.k2
+
+    def held(
+        self, rows: Sequence[Sequence[float]], trends: Sequence[float], mode: Any, load: Load
+    ) -> tuple[list[int], list[float], list[float]]:
+        """The independent lines without slip, the force on the cart, and what they carry of it."""
+        weight = load[2] + self.g
+        force = [-load[0], -load[1], 0.0]
+        basis: list[int] = []
+        for j, s in enumerate(mode):
+            if s:
+                force = [f - s * self.levels[j] * weight * r for f, r in zip(force, rows[j])]
+            elif not basis:
+                basis.append(j)
+            elif len(basis) == 1:
+                a, b = rows[basis[0]], rows[j]
+                if 1 - self.dot(a, b) ** 2 / (self.dot(a, a) * self.dot(b, b)) > 1e-12:
+                    basis.append(j)
+        need = [self.dot(rows[j], force) + trends[j] for j in basis]
+        if not basis:
+            return basis, force, [0.0, 0.0, 0.0]
+        a = rows[basis[0]]
+        if len(basis) == 1:
+            share = need[0] / self.dot(a, a)
+            return basis, force, [share * r for r in a]
+        b = rows[basis[1]]
+        aa, ab, bb = self.dot(a, a), self.dot(a, b), self.dot(b, b)
+        whole = aa * bb - ab * ab
+        one, two = (bb * need[0] - ab * need[1]) / whole, (aa * need[1] - ab * need[0]) / whole
+        return basis, force, [one * p + two * q for p, q in zip(a, b)]
+
+    def field(self, mode: Any, state: State, load: Load) -> Sequence[Any]:
+        if mode == "rest":
+            return (0.0,) * len(state)
+        rows, slips, trends = self.lines(state)
+        _, force, carried = self.held(rows, trends, mode, load)
+        x, y, moment = (f - c for f, c in zip(force, carried))
+        turning = [slips[2 * k] / self.wheels[k]["reach"] for k in self.swivel]
+        return (*state[3:6], x, y, moment / self.k2, *turning)
+
+    def guards(self, mode: Any, state: State, load: Load, now: State) -> Guards:
+        weight = load[2] + self.g
+        rows, slips, trends = self.lines(state)
+        first, _, _ = self.lines(now)
+        still = range(len(rows)) if mode == "rest" else [j for j, s in enumerate(mode) if not s]
+        if mode == "rest":
+            force = [-load[0], -load[1], 0.0]
+            normals = [vector(rows[i], rows[j]) for i in still for j in still if i < j]
+        else:
+            for j, s in enumerate(mode):
+                if s:
+                    yield j, slips[j] * s
+            basis, _, force = self.held(rows, trends, mode, load)
+            if not basis:
+                return
+            # In the plane of the lines, across each; or along the only one.
+            normals = []
+            if len(basis) == 1:
+                a = rows[basis[0]]
+                normals = [a]
+            else:
+                axis = vector(rows[basis[0]], rows[basis[1]])
+                normals = [vector(axis, rows[j]) for j in still]
+        for u in normals:
+            if not any(abs(one) > 1e-9 for one in u):
+                continue
+            reach = [sum(p * q for p, q in zip(u, rows[j])) for j in still]
+            total = weight * sum(abs(r) * self.levels[j] for r, j in zip(reach, still))
+            push = sum(p * q for p, q in zip(u, force))
+            for s in (1, -1):
+                # Lines along which nothing moves keep their places.
+                slip = {
+                    j: 0 if abs(r) < 1e-12 else s * int(math.copysign(1, r))
+                    for r, j in zip(reach, still, strict=True)
+                }
+                after = [slip.get(j, 0) for j in range(len(first))]
+                if mode != "rest":
+                    after = [slip.get(j, old) for j, old in enumerate(mode)]
+                yield tuple(after), total - s * push
+
+    def at_rest(self, state: State, load: Load) -> tuple[Any, State]:
+        state = [*state[:3], 0.0, 0.0, 0.0, *state[6:]]
+        if all(one > -self.on.slack for _, one in self.guards("rest", state, load, state)):
+            return "rest", state
+        return self.decide((0,) * len(self.levels), state, load), state
+
+    def decide(self, mode: Sequence[int], state: State, load: Load) -> Any:
+        """Which of the lines without a sign slip next: the dual problem, by SciPy."""
+        import numpy as np
+
+        solve: Any = import_module("scipy.optimize").lsq_linear
+        rows, _, trends = self.lines(state)
+        weight, scale = load[2] + self.g, np.array([1.0, 1.0, 1 / math.sqrt(self.k2)])
+        force = [-load[0], -load[1], 0.0]
+        for s, row, level in zip(mode, rows, self.levels, strict=True):
+            force = [f - s * level * weight * r for f, r in zip(force, row)]
+        among = [j for j, s in enumerate(mode) if not s]
+        held = np.array([rows[j] for j in among]) * scale
+        trend = np.array([trends[j] for j in among])
+        push = np.array(force) * scale
+        most = np.array([self.levels[j] * weight for j in among])
+        shift = np.linalg.lstsq(held, trend, rcond=None)[0]
+        best = solve(held.T, push + shift, (-most, most), method="bvls", tol=1e-15)
+        slip: Any = held @ (push - held.T @ best.x) + trend
+        after = list(mode)
+        for j, one in zip(among, slip, strict=True):
+            after[j] = 0 if abs(one) < 1e-9 else int(math.copysign(1, one))
+        return tuple(after)
+
+    def first(self, state: State, load: Load) -> tuple[Any, State]:
+        _, slips, _ = self.lines(state)
+        if not any(state[3:6]):
+            return self.at_rest(state, load)
+        now = [0 if abs(one) < self.on.slack else int(math.copysign(1, one)) for one in slips]
+        return self.decide(now, state, load), state
+
+    def change(self, mode: Any, name: Any, state: State, load: Load) -> tuple[Any, State]:
+        if isinstance(name, tuple):
+            return name, state
+        if all(abs(one) < 1e-9 for one in state[3:6]):
+            return self.at_rest(state, load)
+        _, slips, _ = self.lines(state)
+        near = [0 if not s or abs(one) < 1e-10 else s for s, one in zip(mode, slips)]
+        near[name] = 0
+        return self.decide(near, state, load), state
+
+    def watched(self, state: State) -> Any:
+        return math.hypot(state[0], state[1])
+
+    def turning(self, state: State) -> Any:
+        return state[0] * state[3] + state[1] * state[4]
+
+
+def vector(a: Sequence[float], b: Sequence[float]) -> list[float]:
+    return [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+
+
 MODELS: Mapping[str, type[Model]] = {
     "slider": Slider,
     "planar": Planar,
@@ -536,6 +955,8 @@ MODELS: Mapping[str, type[Model]] = {
     "isolated": Isolated,
     "floor": OnFloor,
     "rocking": Rocking,
+    "rigid_block": RigidBlock,
+    "cart": Cart,
 }
 
 
@@ -552,7 +973,15 @@ def answers_of(model: Model, state: State, peak: Any) -> dict[str, list[Any]]:
     """By quantity, as a problem asks for them."""
     name = model.names[0]
     found = {f"final_{name}": model.final(state), f"peak_{name}": [peak]}
-    if isinstance(model, Rocking):
+    if isinstance(model, RigidBlock):
+        found["final_displacement"] = [model.displacement(state)]
+    if isinstance(model, Cart):
+        found = {
+            "final_displacement": state[:2],
+            "final_rotation": [state[2]],
+            "peak_displacement": [peak],
+        }
+    if isinstance(model, Rocking | RigidBlock):
         fell: dict[str, list[Any]] = {"overturned": [model.on.number(float(model.fell))]}
         return fell if model.fell else {**fell, **found}
     return found

@@ -18,6 +18,7 @@ CLASSES = (
     "springs, stops and bearings",
     "structures",
     "rocking",
+    "carts",
 )
 Answers = Mapping[str, Sequence[float]]
 

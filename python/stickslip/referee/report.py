@@ -155,8 +155,8 @@ def plot(found: Found) -> Figure:
     from ..plotting.styles import GRAY, style
 
     with style():
-        figure = Figure(figsize=(11, 6.2), layout="constrained")
-        panels = figure.subplots(2, 4, sharex=True, sharey=True)
+        figure = Figure(figsize=(11, 8.6), layout="constrained")
+        panels = figure.subplots(3, 3, sharex=True, sharey=True)
         colors = colormaps["tab20"].colors  # type: ignore[attr-defined]
         markers = "o^sDvPX<>*hd"
         for axes, group in zip(panels.flat, CLASSES, strict=True):
@@ -183,7 +183,8 @@ def plot(found: Found) -> Figure:
         for axes in panels[:, 0]:
             axes.set_ylabel("median error / scale")
         lines = {line.get_label(): line for axes in panels.flat for line in axes.get_lines()}
-        figure.legend(
+        legend: Any = figure.legend
+        legend(
             [lines[tool] for tool in found if tool in lines],
             [tool for tool in found if tool in lines],
             loc="outside lower center",

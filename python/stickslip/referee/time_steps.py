@@ -1,5 +1,7 @@
 """A block for tools that advance in time steps: engines for rigid bodies.
 
+It slides without turning, or is a rigid block that rocks in a vertical plane.
+
 The ground stays at rest, and the block feels the ground acceleration as a force (an inclined ground
 turns the forces). Within a step the force is held at its mean. A block weighs 1 kg, so that forces
 are accelerations.
@@ -29,11 +31,45 @@ class Body:
     start: tuple[float, float, float, float]  # x, y [m], vx, vy [m/s]
 
 
+Tumble = Callable[[float, float], tuple[float, float]]
+"""Applies (along, upward) forces at the center of mass for a step; returns its displacement along
+and the rotation, positive to the right."""
+
+
+@dataclass(frozen=True)
+class Block:
+    """A rigid block in a vertical plane, on the ground at z = 0."""
+
+    step: float  # [s]
+    mu: float
+    size: tuple[float, float]  # width and height [m]
+    center: tuple[float, float]  # of mass, from the middle of the base [m]
+    inertia: float  # about the center of mass [kg m^2]
+    rotation: float  # at the start [rad]
+
+    def at(self) -> tuple[float, float]:
+        """Where the center of mass starts; the middle of the base was at the origin."""
+        lean = self.rotation
+        side = math.copysign(self.size[0] / 2, lean) if lean else 0.0
+        x, z = self.center[0] - side, self.center[1]
+        return (
+            side + x * math.cos(lean) + z * math.sin(lean),
+            z * math.cos(lean) - x * math.sin(lean),
+        )
+
+    def base(self, x: float, rotation: float) -> float:
+        """Displacement of the middle of the base, from that of the center of mass along."""
+        at = self.at()[0] + x
+        aside, up = self.center
+        return at - aside * math.cos(rotation) - up * math.sin(rotation)
+
+
 def march(
     problem: Problem,
     step: float,
     build: Callable[[Body], Advance],
     *,
+    tumble: Callable[[Block], Tumble] | None = None,
     stops: bool = True,
     restitution: bool = True,
     flight: bool = True,
@@ -46,10 +82,18 @@ def march(
         Time step [s]; shortened so that every sample falls on one.
     build : callable
         Makes the world of the engine.
+    tumble : callable, optional
+        The same for a rigid block that rocks.
     stops, restitution, flight : bool
         What the engine offers.
     """
     system = problem.system
+    if problem.kind == "rigid_block" and tumble is None:
+        raise NotTriedError("blocks that turn")
+    if problem.kind == "rigid_block" and tumble is not None:
+        return rock(problem, step, tumble)
+    if problem.kind == "cart":
+        raise NotTriedError("wheels with a line of contact on casters")
     if problem.kind not in ("slider", "planar"):
         if problem.kind == "rocking":
             raise NotExpressibleError("an impact law and small angles that are given")
@@ -100,6 +144,42 @@ def march(
             peak = max(peak, math.hypot(x, y))
     final = [x, y] if body.planar else [x]
     return {"final_displacement": final, "peak_displacement": [peak]}
+
+
+def rock(problem: Problem, step: float, build: Callable[[Block], Tumble]) -> Answers:
+    """Step a rigid block through a problem."""
+    system = problem.system
+    if "lever" in system:
+        raise NotExpressibleError("impacts that act within the base")
+    width, height = system["width"], system["height"]
+    parts = max(1, math.ceil(problem.dt / step - 1e-9))
+    block = Block(
+        problem.dt / parts,
+        system["mu"],
+        (width, height),
+        tuple(system.get("center", (0.0, height / 2))),
+        system.get("gyration_radius", math.hypot(width, height) / math.sqrt(12)) ** 2,
+        problem.start.get("rotation", 0.0),
+    )
+    tumble = build(block)
+    along, up = problem.component("along"), problem.component("vertical")
+    x, rotation = 0.0, block.rotation
+    peak = abs(rotation)
+    for i in range(len(along) - 1):
+        for k in range(parts):
+            u = (k + 0.5) / parts
+            n = along[i] + u * (along[i + 1] - along[i])
+            weight = system["gravity"] + up[i] + u * (up[i + 1] - up[i])
+            x, rotation = tumble(-n, -weight)
+            peak = max(peak, abs(rotation))
+            if abs(rotation) > math.pi / 2:
+                return {"overturned": [math.copysign(1.0, rotation)]}
+    return {
+        "overturned": [0.0],
+        "final_displacement": [block.base(x, rotation)],
+        "final_rotation": [rotation],
+        "peak_rotation": [peak],
+    }
 
 
 def size() -> tuple[float, float, float]:

@@ -10,7 +10,7 @@ from importlib import import_module
 from typing import Any
 
 from ..problems import Answers, Problem
-from ..time_steps import Advance, Body, march
+from ..time_steps import Advance, Block, Body, Tumble, march
 
 NAME = "Box2D"
 PURPOSE = "games in two dimensions, in single precision"
@@ -21,7 +21,9 @@ STEPS = (5e-3, 1e-3, 2e-4)
 
 def solve(problem: Problem, cost: int) -> Answers:
     box: Any = import_module(MODULE)
-    return march(problem, STEPS[cost], lambda body: build(box, body))
+    return march(
+        problem, STEPS[cost], lambda body: build(box, body), tumble=lambda one: rock(box, one)
+    )
 
 
 def build(box: Any, body: Body) -> Advance:
@@ -37,6 +39,7 @@ def build(box: Any, body: Body) -> Advance:
     block.linearVelocity = vx, vy
     fixture = block.CreatePolygonFixture(box=(0.5, height), density=10, friction=body.mu)
     fixture.friction = body.mu**2  # Box2D takes the root of the product; the ground has 1
+    joint: Any = None
     if body.planar:
         fixture.sensor = True
         joint = world.CreateFrictionJoint(bodyA=ground, bodyB=block, maxForce=0.0, maxTorque=0.0)
@@ -59,3 +62,23 @@ def build(box: Any, body: Body) -> Advance:
         return x, y if body.planar else 0.0, vx, vy if body.planar else 0.0
 
     return advance
+
+
+def rock(box: Any, block: Block) -> Tumble:
+    world = box.b2World(gravity=(0, 0), doSleep=False)
+    ground = world.CreateStaticBody(position=(0, 0))
+    ground.CreateEdgeFixture(vertices=[(-50, 0), (50, 0)], friction=1)
+    (width, height), (aside, up) = block.size, block.center
+    at = block.at()
+    body = world.CreateDynamicBody(position=at, angle=-block.rotation, allowSleep=False)
+    shape = box.b2PolygonShape(box=(width / 2, height / 2, (-aside, height / 2 - up), 0))
+    body.CreateFixture(shape=shape, density=1, friction=block.mu**2, restitution=0)
+    body.massData = box.b2MassData(mass=1, center=(0, 0), I=block.inertia)
+
+    def tumble(fx: float, fz: float) -> tuple[float, float]:
+        body.ApplyForce((fx, fz), body.worldCenter, True)
+        world.Step(block.step, 20, 10)
+        world.ClearForces()
+        return body.position[0] - at[0], -body.angle
+
+    return tumble

@@ -21,6 +21,10 @@ def solve(problem: Problem, cost: int) -> Answers:
 
     if problem.kind == "slider" and problem.system["friction"]["kind"] == "series":
         raise NotTriedError("guards that depend on where each element stands")
+    if problem.kind == "rigid_block":
+        raise NotTriedError("large rotations")
+    if problem.kind == "cart":
+        raise NotTriedError("guards that depend on where each wheel points")
     numbers = Numbers(crawl=1e-7 if cost else 1e-5, speed=1e-6)
     symbolic = Numbers(
         number=lambda one: one, value=lambda one: one, exp=hy.exp, sqrt=hy.sqrt, crawl=numbers.crawl
@@ -34,7 +38,8 @@ def solve(problem: Problem, cost: int) -> Answers:
             variables = [hy.make_vars("s0")]
         load = [hy.par[2 * k] + hy.par[2 * k + 1] * hy.time for k in range(3)]
         field = [hy.expression(0.0) + one for one in same.field(mode, variables, load)]
-        names, events = [], []
+        names: list[Any] = []
+        events: list[Any] = []
         for name, guard in same.guards(mode, variables, load, [0.0] * size):
             names.append(name)
             if isinstance(guard, float | int):  # constant: never reached

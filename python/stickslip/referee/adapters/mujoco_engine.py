@@ -6,7 +6,7 @@ from importlib import import_module
 from typing import Any
 
 from ..problems import Answers, Problem
-from ..time_steps import Advance, Body, march
+from ..time_steps import Advance, Block, Body, Tumble, march
 
 NAME = "MuJoCo"
 PURPOSE = "robots and their control; contacts are soft, so that a block at rest creeps"
@@ -26,6 +26,17 @@ MODEL = """
 <joint type="slide" axis="0 1 0" name="y"/><joint type="slide" axis="0 0 1" name="z"/>
 <geom type="box" size="0.5 0.5 0.05" mass="1" friction="{mu} 0 0" {contact}/></body>
 </worldbody></mujoco>
+"""
+
+ROCKS = """
+<mujoco><option timestep="{step}" gravity="0 0 0" cone="elliptic" impratio="{impratio}"
+ noslip_iterations="{noslip}" integrator="Euler" iterations="50" tolerance="1e-12"/>
+<worldbody><geom name="ground" type="plane" size="50 50 1" friction="{mu} 0 0" {contact}/>
+<body name="block" pos="{x} 0 {z}"><joint type="slide" axis="1 0 0"/>
+<joint type="slide" axis="0 0 1"/><joint type="hinge" axis="0 1 0"/>
+<inertial pos="0 0 0" mass="1" diaginertia="1 {inertia} 1"/>
+<geom type="box" pos="{aside} 0 {up}" size="{half} 0.5 {tall}" friction="{mu} 0 0" {contact}/>
+</body></worldbody></mujoco>
 """
 
 
@@ -53,4 +64,26 @@ def solve(problem: Problem, cost: int) -> Answers:
 
         return step_once
 
-    return march(problem, step, build, stops=False)
+    def tumble(block: Block) -> Tumble:
+        soft = f'condim="3" solref="{2.5 * block.step} 1" solimp="0.99 0.9999 0.0001"'
+        (width, height), (aside, up) = block.size, block.center
+        text = ROCKS.format(
+            step=block.step, impratio=impratio, noslip=noslip, mu=block.mu, contact=soft,
+            x=aside, z=up, inertia=block.inertia, aside=-aside, up=height / 2 - up,
+            half=width / 2, tall=height / 2,
+        )  # fmt: skip
+        model = mujoco.MjModel.from_xml_string(text)
+        data = mujoco.MjData(model)
+        x, z = block.at()
+        data.qpos[:] = x - aside, z - up, block.rotation
+        start = x - aside
+
+        def step_once(fx: float, fz: float) -> tuple[float, float]:
+            data.qfrc_applied[:] = fx, fz, 0.0
+            mujoco.mj_step(model, data)
+            x, _, rotation = data.qpos.tolist()
+            return x - start, rotation
+
+        return step_once
+
+    return march(problem, step, build, tumble=tumble, stops=False)

@@ -23,8 +23,10 @@ FAR = 1e6  # a yield displacement that is never reached [m]
 
 def solve(problem: Problem, cost: int) -> Answers:
     system, friction = problem.system, problem.system.get("friction", {})
-    if problem.kind == "rocking":
+    if problem.kind in ("rocking", "rigid_block"):
         raise NotExpressibleError("an impact law that is given")
+    if problem.kind == "cart":
+        raise NotTriedError("wheels that turn as they go")
     if friction["kind"] == "static_kinetic" or friction.get("exponent") == 2:
         raise NotExpressibleError("static friction above kinetic")
     if friction["kind"] == "series":

@@ -49,7 +49,7 @@ def slider_of(system: Any) -> ss.Slider:
     law = law_of(system["friction"])
     if system["friction"]["kind"] == "series":
         return ss.Slider(law)
-    common = {
+    common: dict[str, Any] = {
         "damping": system.get("damping", 0.0),
         "stops": stops and ss.Stops(gap=stops["gap"], restitution=stops["restitution"]),
     }
@@ -65,7 +65,7 @@ def slider_of(system: Any) -> ss.Slider:
 
 
 def motion_of(problem: Problem) -> ss.GroundMotion:
-    across = problem.kind == "planar"
+    across = problem.kind in ("planar", "cart")
     with warnings.catch_warnings():
         # Loads that are held are no records: their baseline is meant.
         warnings.simplefilter("ignore", ss.PlausibilityWarning)
@@ -104,6 +104,41 @@ def system_of(problem: Problem) -> ss.IsolatedStructure | ss.EquipmentOnFloor | 
     return ss.IsolatedStructure(slider_of(system), modes)
 
 
+def cart_of(system: Any) -> ss.Cart:
+    supports: list[ss.SwivelCaster | ss.FixedWheel] = []
+    for one in system["supports"]:
+        common = {name: one[name] for name in ("at", "heading", "rolling_mu", "share")}
+        if "reach" in one:
+            level = one["side_mu"] * system["gravity"]
+            supports.append(ss.SwivelCaster(**common, slip_level=level, reach=one["reach"]))
+        else:
+            supports.append(ss.FixedWheel(**common, mu=one["side_mu"]))
+    return ss.Cart(supports, radius_of_gyration=system["radius_of_gyration"])
+
+
+def rigid(problem: Problem, quake: ss.GroundMotion) -> Answers:
+    system, start = problem.system, problem.start
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ss.PlausibilityWarning)
+        block = ss.RockingBlock(
+            width=system["width"],
+            height=system["height"],
+            mu=system.get("mu"),
+            lever=system.get("lever"),
+            center=system.get("center"),
+            gyration_radius=system.get("gyration_radius"),
+        )
+    r = ss.integrate(block, quake, rotation=start.get("rotation", 0.0), rate=start.get("rate", 0.0))
+    if r.overturned is not None:
+        return {"overturned": [1.0 if r.overturned == "right" else -1.0]}
+    return {
+        "overturned": [0.0],
+        "final_displacement": [r.residual],
+        "final_rotation": [float(r.rotation[-1])],
+        "peak_rotation": [r.peak_rotation],
+    }
+
+
 def solve(problem: Problem, cost: int) -> Answers:
     system, start = problem.system, problem.start
     quake = motion_of(problem)
@@ -125,6 +160,20 @@ def solve(problem: Problem, cost: int) -> Answers:
             "final_rotation": [float(rocked.rotation[-1])],
             "peak_rotation": [rocked.peak_rotation],
         }
+    if problem.kind == "rigid_block":
+        return rigid(problem, quake)
+    if problem.kind == "cart":
+        rolled = ss.integrate(
+            cart_of(system),
+            quake,
+            velocity=start.get("velocity", [0.0, 0.0]),
+            yaw_rate=start.get("rate", 0.0),
+        )
+        return {
+            "final_displacement": rolled.residual.tolist(),
+            "final_rotation": [rolled.residual_yaw],
+            "peak_displacement": [rolled.peak],
+        }
     if problem.kind == "planar":
         r = ss.integrate(
             ss.PlanarSlider(slider_of(system)),
@@ -139,6 +188,6 @@ def solve(problem: Problem, cost: int) -> Answers:
         return {"final_displacement": [s.residual], "peak_displacement": [s.peak]}
     if problem.kind in ("isolated", "floor"):
         structure: Any = system_of(problem)
-        t = ss.integrate(structure, quake, **place)
+        t: Any = ss.integrate(structure, quake, **place)
         return {"final_displacement": [t.residual], "peak_displacement": [t.peak]}
     raise NotExpressibleError(f"system {problem.kind!r}")

@@ -10,7 +10,7 @@ from importlib import import_module
 from typing import Any
 
 from ..problems import Answers, Problem
-from ..time_steps import Advance, Body, march
+from ..time_steps import Advance, Block, Body, Tumble, march
 
 NAME = "pymunk"
 PURPOSE = "games and teaching in two dimensions"
@@ -21,7 +21,9 @@ STEPS = (5e-3, 1e-3, 2e-4)
 
 def solve(problem: Problem, cost: int) -> Answers:
     pymunk: Any = import_module(MODULE)
-    return march(problem, STEPS[cost], lambda body: build(pymunk, body))
+    return march(
+        problem, STEPS[cost], lambda body: build(pymunk, body), tumble=lambda one: rock(pymunk, one)
+    )
 
 
 def build(pymunk: Any, body: Body) -> Advance:
@@ -37,6 +39,7 @@ def build(pymunk: Any, body: Body) -> Advance:
     shape = pymunk.Poly.create_box(block, (1, 0.1))
     space.add(block, shape)
     static = space.static_body
+    joint: Any = None
     if body.planar:
         shape.sensor = True
         joint = pymunk.PivotJoint(static, block, (0, 0), (0, 0))
@@ -66,3 +69,28 @@ def build(pymunk: Any, body: Body) -> Advance:
         return x, y if body.planar else 0.0, vx, vy if body.planar else 0.0
 
     return advance
+
+
+def rock(pymunk: Any, block: Block) -> Tumble:
+    space = pymunk.Space()
+    space.iterations = 30
+    space.gravity = 0, 0
+    space.collision_slop = 1e-5
+    space.sleep_time_threshold = float("inf")
+    (width, height), (aside, up) = block.size, block.center
+    at = block.at()
+    body = pymunk.Body(1, block.inertia)
+    body.position, body.angle = at, -block.rotation
+    left, right, low, high = -width / 2 - aside, width / 2 - aside, -up, height - up
+    shape = pymunk.Poly(body, [(left, low), (right, low), (right, high), (left, high)])
+    shape.friction = block.mu
+    ground = pymunk.Segment(space.static_body, (-50, -1), (50, -1), 1)
+    ground.friction = 1
+    space.add(body, shape, ground)
+
+    def tumble(fx: float, fz: float) -> tuple[float, float]:
+        body.apply_force_at_world_point((fx, fz), body.position)
+        space.step(block.step)
+        return body.position.x - at[0], -body.angle
+
+    return tumble

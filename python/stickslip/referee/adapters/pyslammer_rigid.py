@@ -18,6 +18,8 @@ PARTS = (1, 8, 64)
 
 def solve(problem: Problem, cost: int) -> Answers:
     system = problem.system
+    if problem.kind in ("rigid_block", "cart"):
+        raise NotExpressibleError("what does not only slide")
     friction = system.get("friction", {})
     if not friction.get("one_way"):
         raise NotExpressibleError("sliding in both directions")
