@@ -1052,6 +1052,8 @@ class Cart(Model):
 
     def decide(self, among, state, load, mode):
         """The signs of lines whose slip rate is zero: where the acceleration takes them."""
+        if not among:
+            return tuple(mode)
         lines, _ = self.geometry(state)
         weight = load[2] + self.g
         free = [-load[0], -load[1], arb(0)]

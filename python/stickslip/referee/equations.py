@@ -10,8 +10,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from importlib import import_module
 from typing import Any
+
+from .problems import NotTriedError
 
 State = list[Any]
 Load = Sequence[Any]  # along, transverse, vertical
@@ -286,7 +287,7 @@ class Series(Model):
 
     def __init__(self, system: Mapping[str, Any], numbers: Numbers) -> None:
         super().__init__(system, numbers)
-        self.parts: list[tuple[Any, ...]] = [
+        self.parts: Any = [
             tuple(numbers.number(one[name]) for name in ("radius", "mu", "capacity"))
             for one in system["friction"]["elements"]
         ]
@@ -759,195 +760,6 @@ class RigidBlock(Model):
         return [*state[:3], state[3] + slip * self.on.nudge, *state[4:]]
 
 
-class Cart(Model):
-    """A cart in the plane: x, y, yaw, their rates, and the heading of each caster in the room.
-
-    A mode is "rest", or the sign with which each line of friction slips, 0 where it does not. A
-    wheel has a line across it, and one along it. Lines that do not slip have at most two
-    independent ones among them, and all carry what they can before one of them begins to slip.
-    """
-
-    def __init__(self, system: Mapping[str, Any], numbers: Numbers) -> None:
-        super().__init__(system, numbers)
-        self.k2 = system["radius_of_gyration"] ** 2
-        self.wheels = list(system["supports"])
-        self.levels: list[float] = []
-        for one in self.wheels:
-            self.levels += [one["share"] * one["side_mu"], one["share"] * one["rolling_mu"]]
-        self.swivel = [k for k, one in enumerate(self.wheels) if "reach" in one]
-
-    def begin(self, start: Mapping[str, Any]) -> State:
-        vx, vy = start.get("velocity", [0.0, 0.0])
-        headings = [float(self.wheels[k]["heading"]) for k in self.swivel]
-        return [0.0, 0.0, 0.0, vx, vy, start.get("rate", 0.0), *headings]
-
-    def lines(self, state: State) -> tuple[list[list[float]], list[float], list[float]]:
-        """Rows of each line (force and moment of a unit), its slip rate and the trend of that
-        without forces."""
-        sin, cos = self.on.sin, self.on.cos
-        _, _, yaw, vx, vy, w = state[:6]
-        c, s = cos(yaw), sin(yaw)
-        rows: list[list[float]] = []
-        slips: list[float] = []
-        trends: list[float] = []
-        for k, one in enumerate(self.wheels):
-            x, y = one["at"]
-            x, y = c * x - s * y, s * x + c * y
-            px, py = vx - w * y, vy + w * x
-            if k in self.swivel:
-                angle = state[6 + self.swivel.index(k)]
-                turn = (py * cos(angle) - px * sin(angle)) / one["reach"]
-            else:
-                angle, turn = yaw + one["heading"], w
-            for dx, dy in ((-sin(angle), cos(angle)), (cos(angle), sin(angle))):
-                rows.append([dx, dy, x * dy - y * dx])
-                slips.append(dx * px + dy * py)
-                trends.append(turn * (dx * py - dy * px) - w * w * (dx * x + dy * y))
-        return rows, slips, trends
-
-    def dot(self, a: Sequence[float], b: Sequence[float]) -> float:
-        """Of two forces with moments: the acceleration that one gives along the other."""
-        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] / self.k2
-
-    def held(
-        self, rows: Sequence[Sequence[float]], trends: Sequence[float], mode: Any, load: Load
-    ) -> tuple[list[int], list[float], list[float]]:
-        """The independent lines without slip, the force on the cart, and what they carry of it."""
-        weight = load[2] + self.g
-        force = [-load[0], -load[1], 0.0]
-        basis: list[int] = []
-        for j, s in enumerate(mode):
-            if s:
-                force = [f - s * self.levels[j] * weight * r for f, r in zip(force, rows[j])]
-            elif not basis:
-                basis.append(j)
-            elif len(basis) == 1:
-                a, b = rows[basis[0]], rows[j]
-                if 1 - self.dot(a, b) ** 2 / (self.dot(a, a) * self.dot(b, b)) > 1e-12:
-                    basis.append(j)
-        need = [self.dot(rows[j], force) + trends[j] for j in basis]
-        if not basis:
-            return basis, force, [0.0, 0.0, 0.0]
-        a = rows[basis[0]]
-        if len(basis) == 1:
-            share = need[0] / self.dot(a, a)
-            return basis, force, [share * r for r in a]
-        b = rows[basis[1]]
-        aa, ab, bb = self.dot(a, a), self.dot(a, b), self.dot(b, b)
-        whole = aa * bb - ab * ab
-        one, two = (bb * need[0] - ab * need[1]) / whole, (aa * need[1] - ab * need[0]) / whole
-        return basis, force, [one * p + two * q for p, q in zip(a, b)]
-
-    def field(self, mode: Any, state: State, load: Load) -> Sequence[Any]:
-        if mode == "rest":
-            return (0.0,) * len(state)
-        rows, slips, trends = self.lines(state)
-        _, force, carried = self.held(rows, trends, mode, load)
-        x, y, moment = (f - c for f, c in zip(force, carried))
-        turning = [slips[2 * k] / self.wheels[k]["reach"] for k in self.swivel]
-        return (*state[3:6], x, y, moment / self.k2, *turning)
-
-    def guards(self, mode: Any, state: State, load: Load, now: State) -> Guards:
-        weight = load[2] + self.g
-        rows, slips, trends = self.lines(state)
-        first, _, _ = self.lines(now)
-        still = range(len(rows)) if mode == "rest" else [j for j, s in enumerate(mode) if not s]
-        if mode == "rest":
-            force = [-load[0], -load[1], 0.0]
-            normals = [vector(rows[i], rows[j]) for i in still for j in still if i < j]
-        else:
-            for j, s in enumerate(mode):
-                if s:
-                    yield j, slips[j] * s
-            basis, _, force = self.held(rows, trends, mode, load)
-            if not basis:
-                return
-            # In the plane of the lines, across each; or along the only one.
-            normals = []
-            if len(basis) == 1:
-                a = rows[basis[0]]
-                normals = [a]
-            else:
-                axis = vector(rows[basis[0]], rows[basis[1]])
-                normals = [vector(axis, rows[j]) for j in still]
-        for u in normals:
-            if not any(abs(one) > 1e-9 for one in u):
-                continue
-            reach = [sum(p * q for p, q in zip(u, rows[j])) for j in still]
-            total = weight * sum(abs(r) * self.levels[j] for r, j in zip(reach, still))
-            push = sum(p * q for p, q in zip(u, force))
-            for s in (1, -1):
-                # Lines along which nothing moves keep their places.
-                slip = {
-                    j: 0 if abs(r) < 1e-12 else s * int(math.copysign(1, r))
-                    for r, j in zip(reach, still, strict=True)
-                }
-                after = [slip.get(j, 0) for j in range(len(first))]
-                if mode != "rest":
-                    after = [slip.get(j, old) for j, old in enumerate(mode)]
-                yield tuple(after), total - s * push
-
-    def at_rest(self, state: State, load: Load) -> tuple[Any, State]:
-        state = [*state[:3], 0.0, 0.0, 0.0, *state[6:]]
-        if all(one > -self.on.slack for _, one in self.guards("rest", state, load, state)):
-            return "rest", state
-        return self.decide((0,) * len(self.levels), state, load), state
-
-    def decide(self, mode: Sequence[int], state: State, load: Load) -> Any:
-        """Which of the lines without a sign slip next: the dual problem, by SciPy."""
-        import numpy as np
-
-        solve: Any = import_module("scipy.optimize").lsq_linear
-        rows, _, trends = self.lines(state)
-        weight, scale = load[2] + self.g, np.array([1.0, 1.0, 1 / math.sqrt(self.k2)])
-        force = [-load[0], -load[1], 0.0]
-        for s, row, level in zip(mode, rows, self.levels, strict=True):
-            force = [f - s * level * weight * r for f, r in zip(force, row)]
-        among = [j for j, s in enumerate(mode) if not s]
-        held = np.array([rows[j] for j in among]) * scale
-        trend = np.array([trends[j] for j in among])
-        push = np.array(force) * scale
-        most = np.array([self.levels[j] * weight for j in among])
-        shift = np.linalg.lstsq(held, trend, rcond=None)[0]
-        best = solve(held.T, push + shift, (-most, most), method="bvls", tol=1e-15)
-        slip: Any = held @ (push - held.T @ best.x) + trend
-        after = list(mode)
-        for j, one in zip(among, slip, strict=True):
-            after[j] = 0 if abs(one) < 1e-9 else int(math.copysign(1, one))
-        return tuple(after)
-
-    def first(self, state: State, load: Load) -> tuple[Any, State]:
-        _, slips, _ = self.lines(state)
-        if not any(state[3:6]):
-            return self.at_rest(state, load)
-        now = [0 if abs(one) < self.on.slack else int(math.copysign(1, one)) for one in slips]
-        return self.decide(now, state, load), state
-
-    def change(self, mode: Any, name: Any, state: State, load: Load) -> tuple[Any, State]:
-        if isinstance(name, tuple):
-            return name, state
-        if all(abs(one) < 1e-9 for one in state[3:6]):
-            return self.at_rest(state, load)
-        _, slips, _ = self.lines(state)
-        near = [0 if not s or abs(one) < 1e-10 else s for s, one in zip(mode, slips)]
-        near[name] = 0
-        return self.decide(near, state, load), state
-
-    def watched(self, state: State) -> Any:
-        return math.hypot(state[0], state[1])
-
-    def turning(self, state: State) -> Any:
-        return state[0] * state[3] + state[1] * state[4]
-
-
-def vector(a: Sequence[float], b: Sequence[float]) -> list[float]:
-    return [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-
-
 MODELS: Mapping[str, type[Model]] = {
     "slider": Slider,
     "planar": Planar,
@@ -956,7 +768,6 @@ MODELS: Mapping[str, type[Model]] = {
     "floor": OnFloor,
     "rocking": Rocking,
     "rigid_block": RigidBlock,
-    "cart": Cart,
 }
 
 
@@ -966,6 +777,8 @@ def kind_of(system: Mapping[str, Any]) -> str:
 
 
 def model_of(system: Mapping[str, Any], numbers: Numbers) -> Model:
+    if system["kind"] == "cart":
+        raise NotTriedError("which lines of friction slip next")
     return MODELS[kind_of(system)](system, numbers)
 
 
@@ -975,12 +788,6 @@ def answers_of(model: Model, state: State, peak: Any) -> dict[str, list[Any]]:
     found = {f"final_{name}": model.final(state), f"peak_{name}": [peak]}
     if isinstance(model, RigidBlock):
         found["final_displacement"] = [model.displacement(state)]
-    if isinstance(model, Cart):
-        found = {
-            "final_displacement": state[:2],
-            "final_rotation": [state[2]],
-            "peak_displacement": [peak],
-        }
     if isinstance(model, Rocking | RigidBlock):
         fell: dict[str, list[Any]] = {"overturned": [model.on.number(float(model.fell))]}
         return fell if model.fell else {**fell, **found}

@@ -183,8 +183,8 @@ def plot(found: Found) -> Figure:
         for axes in panels[:, 0]:
             axes.set_ylabel("median error / scale")
         lines = {line.get_label(): line for axes in panels.flat for line in axes.get_lines()}
-        legend: Any = figure.legend
-        legend(
+        drawn: Any = figure  # of its legend only a part is typed
+        drawn.legend(
             [lines[tool] for tool in found if tool in lines],
             [tool for tool in found if tool in lines],
             loc="outside lower center",

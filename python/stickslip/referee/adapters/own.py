@@ -187,7 +187,7 @@ def solve(problem: Problem, cost: int) -> Answers:
         s = ss.integrate(slider_of(system), quake, contact=system.get("contact", "flight"), **place)
         return {"final_displacement": [s.residual], "peak_displacement": [s.peak]}
     if problem.kind in ("isolated", "floor"):
-        structure: Any = system_of(problem)
-        t: Any = ss.integrate(structure, quake, **place)
+        integrate: Any = ss.integrate
+        t = integrate(system_of(problem), quake, **place)
         return {"final_displacement": [t.residual], "peak_displacement": [t.peak]}
     raise NotExpressibleError(f"system {problem.kind!r}")
