@@ -5,7 +5,7 @@ would. Between events a motion is a power series in time, whose coefficients fol
 the equations (python-flint); an event is the first zero of the series of a guard. A step ends where
 the last terms fall below 1e-28.
 
-    pip install python-flint
+    pip install python-flint numpy
     python referee/independent.py referee/problems/*.json
 """
 
