@@ -8,7 +8,7 @@ from pages import ROOT
 
 _BESIDE = (
     *("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "bench/README.md"),
-    *("CODE_OF_CONDUCT.md", "SECURITY.md", "paper.md"),
+    *("CODE_OF_CONDUCT.md", "SECURITY.md", "paper.md", "RELEASE.md"),
 )
 PAGES = [
     *(ROOT / name for name in _BESIDE),

