@@ -72,7 +72,7 @@ COMMANDS = [
 
 
 def test_all_command_lines_are_here():
-    assert len(COMMANDS) == 7
+    assert len(COMMANDS) == 8
 
 
 @pytest.mark.parametrize(
