@@ -38,13 +38,21 @@ class CartHold {
     for (const Disc& foot : feet_) sum += foot.level * std::hypot(dot(u, foot.axis), dot(u, foot.transverse));
     return sum;
   }
-  /// Where a load leaves what holds, with weight N: a normal to its surface. False if it does not, or by less than 1e-7 of it.
+  /// Where a load leaves what holds, with weight N: a normal to its surface. False if it does not, or by less than 1e-7 of it
+  /// or the round-off of what holds: without a load the problem finds no exact zero.
   bool leaves(const Vector3& load, double weight, Vector3& normal) {
     problem_.clear();
-    for (std::size_t j = 0; j < lines_.size(); ++j) problem_.add(lines_.row(j), 0, weight * lines_.level(j));
-    for (const Disc& foot : feet_) problem_.add(foot.axis, foot.transverse, weight * foot.level);
+    double held = 0;
+    for (std::size_t j = 0; j < lines_.size(); ++j) {
+      problem_.add(lines_.row(j), 0, weight * lines_.level(j));
+      held += weight * lines_.level(j);
+    }
+    for (const Disc& foot : feet_) {
+      problem_.add(foot.axis, foot.transverse, weight * foot.level);
+      held += weight * foot.level;
+    }
     problem_.solve(load);
-    if (norm(problem_.acceleration()) <= 1e-7 * norm(load)) return false;
+    if (norm(problem_.acceleration()) <= 1e-7 * norm(load) + 1e-13 * held) return false;
     normal = scaled(1 / norm(problem_.acceleration()), problem_.acceleration());
     return true;
   }

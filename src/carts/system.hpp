@@ -265,12 +265,17 @@ class CartSystem {
         state_.lines[l] = static_cast<std::int8_t>(stuck.leaves(normal, j));
         if (state_.lines[l] != 0) work_.fresh[l] = 2;
       }
+    } else if (const std::size_t line = slide.next.which; work_.fresh[line] != 0 && !(slide.next.time > 0)) {
+      // By less than the error of the problem it began to slide, and turns at once: it sticks.
+      state_.lines[line] = 0;
+      work_.fresh[line] = 0;
+      if (!settle_speeds()) rest();
     } else {
       if (is_slow(model_.slow)) {
         rest();
         return true;
       }
-      decide(slide.next.which, sink);
+      decide(line, sink);
     }
     if (at_rest()) return true;
     for (std::size_t l = 0; l < model_.contacts(); ++l) {
@@ -447,11 +452,33 @@ class CartSystem {
       state_.lines[l] = static_cast<std::int8_t>(work_.problem.slides(i));
       work_.fresh[l] = state_.lines[l] != 0 ? begins : std::uint8_t{0};
     }
-    settle_speeds();
+    while (!settle_speeds() && slip_one(begins)) {
+    }
   }
 
-  // No velocity along what sticks.
-  void settle_speeds() {
+  // Of nearly parallel lines, what slips by less than the error of the problem is found to stick with the others, though
+  // together they would hold the cart, which moves: then the one that slips fastest does.
+  bool slip_one(std::uint8_t begins) {
+    const Vector3 y = model_.velocities(state_);
+    const Vector3& way = norm(y) > model_.slow ? y : work_.problem.acceleration();
+    std::size_t fastest = CartModel::none;
+    double most = 0;
+    if (!work_.problem.rests())
+      for (std::size_t l = 0; l < model_.lines.size(); ++l) {
+        const double speed = state_.lines[l] == 0 ? speed_of(state_, way, l) : 0;
+        if (std::abs(speed) > std::abs(most)) most = speed, fastest = l;
+      }
+    if (fastest == CartModel::none) {
+      rest();
+      return false;
+    }
+    state_.lines[fastest] = static_cast<std::int8_t>(most > 0 ? 1 : -1);
+    work_.fresh[fastest] = begins;
+    return true;
+  }
+
+  // No velocity along what sticks; false if that holds the cart.
+  bool settle_speeds() {
     Zonotope& stuck = work_.still;
     stuck.clear();
     for (std::size_t l = 0; l < model_.lines.size(); ++l)
@@ -461,12 +488,11 @@ class CartSystem {
       stuck.add(model_.row_axis(model_.feet[f]), 0);
       stuck.add(model_.row_transverse(model_.feet[f]), 0);
     }
-    if (stuck.size() == 0) return;
+    if (stuck.size() == 0) return true;
     stuck.close();
-    if (stuck.rank() == 3)
-      rest();
-    else
-      model_.set_velocities(state_, stuck.outside(model_.velocities(state_)));
+    if (stuck.rank() == 3) return false;
+    model_.set_velocities(state_, stuck.outside(model_.velocities(state_)));
+    return true;
   }
 
   // From velocities alone, or where forces have jumped.
@@ -623,7 +649,7 @@ class CartSystem {
           static_cast<std::int8_t>(std::abs(speed) > model_.slow ? (speed > 0 ? 1 : -1) : work_.problem.slides(i));
     }
     std::fill(work_.fresh.begin(), work_.fresh.end(), std::uint8_t{0});
-    settle_speeds();
+    if (!settle_speeds()) rest();
     if (at_rest()) return;
     // As long as the acceleration is small beside friction, a series would take steps of |y|/L where a foot slides.
     const bool slides = std::any_of(state_.lines.begin() + static_cast<std::ptrdiff_t>(model_.lines.size()),

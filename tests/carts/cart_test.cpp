@@ -513,3 +513,40 @@ TEST_CASE("Carts refuse what they cannot mean, and name the support", "[carts]")
   CHECK_THROWS_AS(integrate(Cart({FixedWheel{{0, 0}, 0, 0.1, 0.1, {}}}, 0.3), still(3), pushed({}, 1)),
                   ConvergenceError);
 }
+
+TEST_CASE("A cart whose wheels are almost parallel rolls on after a stop", "[carts]") {
+  // Headings of a few 1e-4 that differ by 5e-8: together the lines across would hold the cart, by less than the error of a decision.
+  std::vector<Support> supports;
+  for (const Vector2& at : {places[0], places[1]}) supports.push_back(SwivelCaster{at, 0, side, reach, 0.01, {}});
+  for (const Vector2& at : {places[2], places[3]}) supports.push_back(FixedWheel{at, 0, 0.5, 0.01, {}});
+  const Cart cart(std::move(supports), 0.25);
+  for (const double apart : {5e-8, 1e-10, 1e-13, 0.0}) {
+    CartState state;
+    state.headings = {-0.00024781, -0.00024781 - apart};
+    const double first = -0.11, last = -0.16, duration = 0.007;
+    advance(cart, {duration, {first, 0}, {last, 0}}, state);
+    // Rolling alone; the casters slip sideways by 1e-4 of it.
+    const double rolls = (-(first + last) / 2 - 0.01 * g) * duration;
+    CHECK(state.velocity.axis == Approx(rolls).epsilon(1e-3));
+    advance(cart, {1, {}, {}}, state);
+    CHECK(state.mode == CartMode::rest);
+  }
+}
+
+TEST_CASE("A cart with a locked caster comes to rest without ground motion", "[carts]") {
+  // About the foot, with all wheels rolling: no load is left that could move it again.
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> angle(-pi, pi), rate(-1, 1);
+  for (int k = 0; k < 60; ++k) {
+    std::vector<Support> supports{Foot{{0.27, 0.2}, 0.5, {}}};
+    for (std::size_t i = 1; i < 4; ++i) supports.push_back(SwivelCaster{places[i], angle(random), 0.2, 0.03, 0.01, {}});
+    const Cart cart(std::move(supports), 0.25);
+    CartState state;
+    state.velocity = {rate(random), rate(random)};
+    state.yaw_rate = 3 * rate(random);
+    state.mode = CartMode::moving;
+    for (int second = 0; second < 5; ++second) advance(cart, {1, {}, {}}, state);
+    CHECK(state.mode == CartMode::rest);
+    CHECK(norm(state.displacement) < 1);
+  }
+}
