@@ -103,8 +103,8 @@ class RockingRecorder final : public RockingSink, public EventLog<double>, publi
     arrives_ = leg.acceleration(end.rotation, duration);
   }
 
-  // Moves a block through a whole segment about its corner, if it neither lands nor turns there and the ground has no vertical
-  // motion: what `follow` finds of its leg, by the same formulas.
+  // Moves a block through a whole segment about its corner, if it neither lands, turns nor falls there and the ground has no
+  // vertical motion: what `follow` finds of its leg, by the same formulas.
   bool glide(const RockingSegment& ground, double end, RockingState& state) {
     const double s = sign(state.mode), tilt = s * alpha_of(block_, state.mode), t = ground.duration;
     const double square = block_.p() * block_.p() / standard_gravity, heavy = ground.heavy_start;
@@ -117,7 +117,8 @@ class RockingRecorder final : public RockingSink, public EventLog<double>, publi
     const double a = square * (heavy * (state.rotation - tilt) - n);
     const RockingLeg::Place place = move({state.rotation, state.rate}, a);
     const double last = square * (heavy * (place.rotation - tilt) - ground.n_end);
-    if (!(s * place.rotation > 0 && state.rate * place.rate > 0 && a * last >= 0)) return false;
+    if (!(s * place.rotation > 0 && s * place.rotation < quarter_turn)) return false;
+    if (!(state.rate * place.rate > 0 && a * last >= 0)) return false;
     count_work();
     reach(place.rotation, end);
     const double integral = state.rate * sums.second - a * sums.third / (p * p) + c * (t * t / 2 - sums.second);
