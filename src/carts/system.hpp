@@ -266,10 +266,14 @@ class CartSystem {
         if (state_.lines[l] != 0) work_.fresh[l] = 2;
       }
     } else if (const std::size_t line = slide.next.which; work_.fresh[line] != 0 && !(slide.next.time > 0)) {
-      // By less than the error of the problem it began to slide, and turns at once: it sticks.
+      // By less than the error of the problem it began to slide, and turns at once: it sticks, or slides the other way if
+      // with it everything would.
+      const std::int8_t turned = static_cast<std::int8_t>(-state_.lines[line]);
       state_.lines[line] = 0;
-      work_.fresh[line] = 0;
-      if (!settle_speeds()) rest();
+      if (settle_speeds())
+        work_.fresh[line] = 0;
+      else
+        state_.lines[line] = turned;
     } else {
       if (is_slow(model_.slow)) {
         rest();

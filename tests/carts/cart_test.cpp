@@ -531,6 +531,17 @@ TEST_CASE("A cart whose wheels are almost parallel rolls on after a stop", "[car
     advance(cart, {1, {}, {}}, state);
     CHECK(state.mode == CartMode::rest);
   }
+  // In motion, through a rest that ends at once: a decision names the wrong direction of one line.
+  CartState state{.displacement = {0.9968371698846167, 0.0015094527659777074},
+                  .yaw = 0.0008531473346193742,
+                  .velocity = {0.0017213810429339365, 1.264966205521309e-06},
+                  .yaw_rate = -6.78752417754978e-07,
+                  .headings = {-0.00023656053172625035, -0.00023660273043046184},
+                  .mode = CartMode::moving,
+                  .lines = {-1, 1, 0, 1, 0, 1, 0, 1}};
+  advance(cart, {0.02, {-0.061048161446999996, 0}, {0.141228508645, 0}}, state);
+  CHECK(state.velocity.axis < -1e-5);
+  CHECK(state.velocity.axis > -1e-3);
 }
 
 TEST_CASE("A cart with a locked caster comes to rest without ground motion", "[carts]") {
