@@ -186,19 +186,28 @@ class CartSystem {
     work_.knows_hold = false;
     std::fill(work_.fresh.begin(), work_.fresh.end(), std::uint8_t{0});
     bool known = false;
+    // Takes what the problem found, unless it holds the cart after all.
+    const auto begins = [&](std::uint8_t vanish) {
+      if (work_.problem.rests()) return false;
+      const bool stopped = stopped_;
+      take(vanish);
+      if (!at_rest()) return true;
+      state_.mode = CartMode::moving;
+      state_.lines = work_.before;
+      stopped_ = stopped;
+      return true;
+    };
     if (work_.hold.has_feet()) {
       slaved_ = departure.beyond ? after_stop : from_rest;
     } else if (departure.beyond || departure.tied) {
       ask_all();
       if (departure.beyond) {
         solve(state_, now_);
-        known = !work_.problem.rests();
-        if (known) take(1);
+        known = begins(1);
       }
       if (!known) {
         solve(state_, now_ + a_little);
-        known = !work_.problem.rests();
-        if (known) take(2);
+        known = begins(2);
       }
     }
     if (!known && departure.face != nullptr) {
@@ -218,7 +227,15 @@ class CartSystem {
       leg.begin(state_, ground_, now_, work_.fresh);
       // Forces can jump where a segment begins.
       if (tries > 0 || !(leg.excess() > 1e-9)) break;
+      const bool slow = is_slow(model_.slow), stopped = stopped_;
       decide_all();
+      if (at_rest() && slow) {  // it has just left its rest: what moves it is not known better
+        state_.mode = CartMode::moving;
+        state_.lines = work_.before;
+        stopped_ = stopped;
+        leg.begin(state_, ground_, now_, work_.fresh);
+        break;
+      }
       if (const auto now = at_once(); now != CartSlide::Now::leg) return {&leg, {}, now};
     }
     return {&leg, leg.next()};
@@ -349,6 +366,7 @@ class CartSystem {
   // What comes without a leg.
   CartSlide::Now at_once() const {
     using Now = CartSlide::Now;
+    if (at_rest()) return Now::halt;
     if (slaved_ > 0) return Now::slaved;
     if (model_.feet.empty() || !(ground_.heavy(now_) > 0)) return Now::leg;
     const Vector3 y = model_.velocities(state_);
@@ -473,6 +491,7 @@ class CartSystem {
         if (std::abs(speed) > std::abs(most)) most = speed, fastest = l;
       }
     if (fastest == CartModel::none) {
+      work_.before = state_.lines;
       rest();
       return false;
     }
