@@ -186,28 +186,19 @@ class CartSystem {
     work_.knows_hold = false;
     std::fill(work_.fresh.begin(), work_.fresh.end(), std::uint8_t{0});
     bool known = false;
-    // Takes what the problem found, unless it holds the cart after all.
-    const auto begins = [&](std::uint8_t vanish) {
-      if (work_.problem.rests()) return false;
-      const bool stopped = stopped_;
-      take(vanish);
-      if (!at_rest()) return true;
-      state_.mode = CartMode::moving;
-      state_.lines = work_.before;
-      stopped_ = stopped;
-      return true;
-    };
     if (work_.hold.has_feet()) {
       slaved_ = departure.beyond ? after_stop : from_rest;
     } else if (departure.beyond || departure.tied) {
       ask_all();
       if (departure.beyond) {
         solve(state_, now_);
-        known = begins(1);
+        known = !work_.problem.rests();
+        if (known) take(1);
       }
       if (!known) {
         solve(state_, now_ + a_little);
-        known = begins(2);
+        known = !work_.problem.rests();
+        if (known) take(2);
       }
     }
     if (!known && departure.face != nullptr) {
@@ -227,15 +218,7 @@ class CartSystem {
       leg.begin(state_, ground_, now_, work_.fresh);
       // Forces can jump where a segment begins.
       if (tries > 0 || !(leg.excess() > 1e-9)) break;
-      const bool slow = is_slow(model_.slow), stopped = stopped_;
       decide_all();
-      if (at_rest() && slow) {  // it has just left its rest: what moves it is not known better
-        state_.mode = CartMode::moving;
-        state_.lines = work_.before;
-        stopped_ = stopped;
-        leg.begin(state_, ground_, now_, work_.fresh);
-        break;
-      }
       if (const auto now = at_once(); now != CartSlide::Now::leg) return {&leg, {}, now};
     }
     return {&leg, leg.next()};
@@ -282,21 +265,12 @@ class CartSystem {
         state_.lines[l] = static_cast<std::int8_t>(stuck.leaves(normal, j));
         if (state_.lines[l] != 0) work_.fresh[l] = 2;
       }
-    } else if (const std::size_t line = slide.next.which; work_.fresh[line] != 0 && !(slide.next.time > 0)) {
-      // By less than the error of the problem it began to slide, and turns at once: it sticks, or slides the other way if
-      // with it everything would.
-      const std::int8_t turned = static_cast<std::int8_t>(-state_.lines[line]);
-      state_.lines[line] = 0;
-      if (settle_speeds())
-        work_.fresh[line] = 0;
-      else
-        state_.lines[line] = turned;
     } else {
       if (is_slow(model_.slow)) {
         rest();
         return true;
       }
-      decide(line, sink);
+      decide(slide.next.which, sink);
     }
     if (at_rest()) return true;
     for (std::size_t l = 0; l < model_.contacts(); ++l) {
@@ -366,7 +340,6 @@ class CartSystem {
   // What comes without a leg.
   CartSlide::Now at_once() const {
     using Now = CartSlide::Now;
-    if (at_rest()) return Now::halt;
     if (slaved_ > 0) return Now::slaved;
     if (model_.feet.empty() || !(ground_.heavy(now_) > 0)) return Now::leg;
     const Vector3 y = model_.velocities(state_);
@@ -474,34 +447,11 @@ class CartSystem {
       state_.lines[l] = static_cast<std::int8_t>(work_.problem.slides(i));
       work_.fresh[l] = state_.lines[l] != 0 ? begins : std::uint8_t{0};
     }
-    while (!settle_speeds() && slip_one(begins)) {
-    }
+    settle_speeds();
   }
 
-  // Of nearly parallel lines, what slips by less than the error of the problem is found to stick with the others, though
-  // together they would hold the cart, which moves: then the one that slips fastest does.
-  bool slip_one(std::uint8_t begins) {
-    const Vector3 y = model_.velocities(state_);
-    const Vector3& way = norm(y) > model_.slow ? y : work_.problem.acceleration();
-    std::size_t fastest = CartModel::none;
-    double most = 0;
-    if (!work_.problem.rests())
-      for (std::size_t l = 0; l < model_.lines.size(); ++l) {
-        const double speed = state_.lines[l] == 0 ? speed_of(state_, way, l) : 0;
-        if (std::abs(speed) > std::abs(most)) most = speed, fastest = l;
-      }
-    if (fastest == CartModel::none) {
-      work_.before = state_.lines;
-      rest();
-      return false;
-    }
-    state_.lines[fastest] = static_cast<std::int8_t>(most > 0 ? 1 : -1);
-    work_.fresh[fastest] = begins;
-    return true;
-  }
-
-  // No velocity along what sticks; false if that holds the cart.
-  bool settle_speeds() {
+  // No velocity along what sticks.
+  void settle_speeds() {
     Zonotope& stuck = work_.still;
     stuck.clear();
     for (std::size_t l = 0; l < model_.lines.size(); ++l)
@@ -511,11 +461,12 @@ class CartSystem {
       stuck.add(model_.row_axis(model_.feet[f]), 0);
       stuck.add(model_.row_transverse(model_.feet[f]), 0);
     }
-    if (stuck.size() == 0) return true;
+    if (stuck.size() == 0) return;
     stuck.close();
-    if (stuck.rank() == 3) return false;
-    model_.set_velocities(state_, stuck.outside(model_.velocities(state_)));
-    return true;
+    if (stuck.rank() == 3)
+      rest();
+    else
+      model_.set_velocities(state_, stuck.outside(model_.velocities(state_)));
   }
 
   // From velocities alone, or where forces have jumped.
@@ -672,7 +623,7 @@ class CartSystem {
           static_cast<std::int8_t>(std::abs(speed) > model_.slow ? (speed > 0 ? 1 : -1) : work_.problem.slides(i));
     }
     std::fill(work_.fresh.begin(), work_.fresh.end(), std::uint8_t{0});
-    if (!settle_speeds()) rest();
+    settle_speeds();
     if (at_rest()) return;
     // As long as the acceleration is small beside friction, a series would take steps of |y|/L where a foot slides.
     const bool slides = std::any_of(state_.lines.begin() + static_cast<std::ptrdiff_t>(model_.lines.size()),
