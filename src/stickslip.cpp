@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "c_status.hpp"
+#include "c_interface.hpp"
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/coulomb.hpp"
@@ -61,6 +61,8 @@ namespace {
 
 using detail::c_status_of;
 using detail::require_pointer;
+using detail::store;
+using detail::vector;
 
 // The rules are checked at each step: their messages are composed only for an error.
 [[noreturn, gnu::noinline]] void refuse_flag(const char* name, int value) {
@@ -122,9 +124,6 @@ State state_of(const stickslip_state& s) {
   return {s.displacement,   s.velocity, s.mode > 0 ? Mode::forward : s.mode < 0 ? Mode::backward : Mode::stuck,
           s.in_flight == 1, s.gap,      s.gap_velocity};
 }
-
-Vector2 vector(const double (&components)[2]) { return {components[0], components[1]}; }
-void store(Vector2 v, double (&components)[2]) { components[0] = v.axis, components[1] = v.transverse; }
 
 PlanarState state_of(const stickslip_planar_state& s) {
   detail::require(s.mode == 0 || s.mode == 1 || s.mode == 2, "stickslip_planar_state: mode must be 0, 1 or 2", s.mode);

@@ -12,11 +12,11 @@
  *
  * The same sliders move in two horizontal directions with stickslip_step_planar and stickslip_advance_planar, which
  * take a stickslip_planar_segment and a stickslip_planar_state. A pendulum with several surfaces moves with
- * stickslip_advance_pendulum, a block that rocks with stickslip_advance_slender_block or stickslip_advance_rocking_block,
- * and a cart with stickslip_advance_cart.
+ * stickslip_advance_pendulum, a block that rocks with stickslip_advance_slender_block or
+ * stickslip_advance_rocking_block, and a cart with stickslip_advance_cart.
  *
- * Only stickslip_create and stickslip_advance_cart allocate memory. The only global data are the last message of each thread. No exception leaves
- * these functions.
+ * Only stickslip_create and stickslip_advance_cart allocate memory. The only global data are the last message of each
+ * thread. No exception leaves these functions.
  *
  * SI units. A level is a friction force per unit mass: the coefficient of friction times 9.80665 m/s^2.
  *

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "c_status.hpp"
+#include "c_interface.hpp"
 #include "stickslip/carts/cart.hpp"
 #include "stickslip/carts/integrate.hpp"
 #include "stickslip/carts/state.hpp"
@@ -19,10 +19,10 @@
 namespace stickslip {
 namespace {
 
-constexpr std::size_t most = STICKSLIP_MOST_SUPPORTS;
+using detail::store;
+using detail::vector;
 
-Vector2 vector(const double (&components)[2]) { return {components[0], components[1]}; }
-void store(Vector2 v, double (&components)[2]) { components[0] = v.axis, components[1] = v.transverse; }
+constexpr std::size_t most = STICKSLIP_MOST_SUPPORTS;
 
 Support support_of(const stickslip_support& s, bool shares) {
   const std::optional<double> share = shares ? std::optional(s.share) : std::nullopt;

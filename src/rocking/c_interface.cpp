@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "c_status.hpp"
+#include "c_interface.hpp"
 #include "stickslip/base/equal.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/rocking/integrate.hpp"

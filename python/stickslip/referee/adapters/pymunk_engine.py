@@ -26,12 +26,17 @@ def solve(problem: Problem, cost: int) -> Answers:
     )
 
 
-def build(pymunk: Any, body: Body) -> Advance:
+def empty_space(pymunk: Any) -> Any:
     space = pymunk.Space()
     space.iterations = 30
     space.gravity = 0, 0
     space.collision_slop = 1e-5
     space.sleep_time_threshold = float("inf")
+    return space
+
+
+def build(pymunk: Any, body: Body) -> Advance:
+    space = empty_space(pymunk)
     block = pymunk.Body(1, float("inf"))
     x, y, vx, vy = body.start
     block.velocity = vx, vy
@@ -72,11 +77,7 @@ def build(pymunk: Any, body: Body) -> Advance:
 
 
 def rock(pymunk: Any, block: Block) -> Tumble:
-    space = pymunk.Space()
-    space.iterations = 30
-    space.gravity = 0, 0
-    space.collision_slop = 1e-5
-    space.sleep_time_threshold = float("inf")
+    space = empty_space(pymunk)
     (width, height), (aside, up) = block.size, block.center
     at = block.at()
     body = pymunk.Body(1, block.inertia)

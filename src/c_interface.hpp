@@ -1,4 +1,4 @@
-// How a call of the C interface ends: with a status, and a message if it failed.
+// What the files of the C interface share: how a call ends, and how C keeps numbers.
 #pragma once
 
 #include <cmath>
@@ -6,6 +6,7 @@
 #include <string>
 
 #include "stickslip/error.hpp"
+#include "stickslip/planar/vector.hpp"
 #include "stickslip/stickslip.h"
 
 namespace stickslip::detail {
@@ -30,6 +31,9 @@ int c_status_of(Work&& work) noexcept {
 inline void require_pointer(const void* pointer, const char* name) {
   if (pointer == nullptr) refuse_null(name);
 }
+
+inline Vector2 vector(const double (&components)[2]) noexcept { return {components[0], components[1]}; }
+inline void store(Vector2 v, double (&components)[2]) noexcept { components[0] = v.axis, components[1] = v.transverse; }
 
 /// A whole number of a state, which C keeps as a double.
 /// @param name  of the struct and its member, for the message
