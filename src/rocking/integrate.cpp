@@ -104,27 +104,24 @@ class RockingRecorder final : public RockingSink, public EventLog<double>, publi
   }
 
   // Moves a block through a whole segment about its corner, if it neither lands, turns nor falls there and the ground has no
-  // vertical motion: what `follow` finds of its leg, by the same formulas.
+  // vertical motion: what `follow` finds of its leg, without making one.
   bool glide(const RockingSegment& ground, double end, RockingState& state) {
     const double s = sign(state.mode), tilt = s * alpha_of(block_, state.mode), t = ground.duration;
     const double square = block_.p() * block_.p() / standard_gravity, heavy = ground.heavy_start;
     const double n = ground.n_start, slope = (ground.n_end - n) / t, p = std::sqrt(square * heavy), c = slope / heavy;
     const HyperbolicSums& sums = this->sums()(p, t);
-    const auto move = [&](const RockingLeg::Place& from, double a) -> RockingLeg::Place {
-      return {from.rotation + (from.rate * sums.first + a * sums.second + c * sums.third),
-              from.rate * sums.cosh + a * sums.first - c * (p * p) * sums.second};
-    };
     const double a = square * (heavy * (state.rotation - tilt) - n);
-    const RockingLeg::Place place = move({state.rotation, state.rate}, a);
+    const HyperbolicMotion motion{{state.rotation, state.rate}, a, c, p};
+    const RockingPlace place = motion.at(sums);
     const double last = square * (heavy * (place.rotation - tilt) - ground.n_end);
     if (!(s * place.rotation > 0 && s * place.rotation < quarter_turn)) return false;
     if (!(state.rate * place.rate > 0 && a * last >= 0)) return false;
     count_work();
     reach(place.rotation, end);
-    const double integral = state.rate * sums.second - a * sums.third / (p * p) + c * (t * t / 2 - sums.second);
-    response_.energy.input -= square * ((n + t * slope) * (place.rotation - state.rotation) - slope * integral);
+    response_.energy.input +=
+        work_of_ground(square, n, slope, t, place.rotation - state.rotation, motion.integral_of_rotation(sums, t));
     response_.time_rocking += t;
-    variation_ = move(variation_, square * (heavy * variation_.rotation - n));
+    variation_ = HyperbolicMotion{variation_, square * (heavy * variation_.rotation - n), c, p}.at(sums);
     state.rotation = place.rotation;
     state.rate = place.rate;
     return true;

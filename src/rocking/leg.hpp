@@ -88,15 +88,41 @@ class LastSums {
   HyperbolicSums sums_{};
 };
 
-/// The motion about a corner from a start, theta(0) = theta0 and theta'(0) = w0. Under a constant G
+struct RockingPlace {
+  double rotation, rate;
+};
+
+/// The motion about a corner from a start, theta(0) = theta0 and theta'(0) = w0, under a constant G:
 ///     theta = theta0 + w0 S1 + a0 S2 + c1 S3,   theta' = w0 cosh(Pt) + a0 S1 + c1 (1 - cosh(Pt)),
 /// P = p sqrt(G/g), a0 = theta''(0), c1 = p^2 n'/(g P^2); S of HyperbolicSums. Near theta = 0 no other form keeps the digits of
-/// a small bounce. Under a G that is linear in time it is a power series.
+/// a small bounce.
+struct HyperbolicMotion {
+  RockingPlace start;
+  double a0, c1, p;
+
+  RockingPlace at(const HyperbolicSums& s) const noexcept {
+    return {start.rotation + (start.rate * s.first + a0 * s.second + c1 * s.third),
+            start.rate * s.cosh + a0 * s.first - c1 * (p * p) * s.second};
+  }
+  /// Of theta - theta0 until the time of the sums.
+  double integral_of_rotation(const HyperbolicSums& s, double t) const noexcept {
+    return start.rate * s.second - a0 * s.third / (p * p) + c1 * (t * t / 2 - s.second);
+  }
+};
+
+/// Work of a horizontal ground acceleration, n0 + n1 t, per unit moment of inertia about the corner: the integral of -p^2 n/g
+/// theta'.
+/// @param square              p^2/g
+/// @param turned, integral    theta - theta0 at the time, and its integral until then
+inline double work_of_ground(double square, double n0, double n1, double t, double turned, double integral) noexcept {
+  return -square * ((n0 + t * n1) * turned - n1 * integral);
+}
+
+/// The motion about a corner from a start: a HyperbolicMotion under a constant G, and a power series under one that is linear in
+/// time.
 class RockingLeg {
  public:
-  struct Place {
-    double rotation, rate;
-  };
+  using Place = RockingPlace;
 
   /// @param begin  since the beginning of the segment [s]
   /// @param tilt   s alpha; 0 for the variation of a motion with the scale of the ground motion
@@ -142,11 +168,7 @@ class RockingLeg {
       }
       return {start_.rotation + value, slope / duration_};
     }
-    return at((*sums_)(p_, t));
-  }
-  Place at(const HyperbolicSums& s) const noexcept {
-    return {start_.rotation + (start_.rate * s.first + a0_ * s.second + c1_ * s.third),
-            start_.rate * s.cosh + a0_ * s.first - c1_ * (p_ * p_) * s.second};
+    return hyperbolic().at((*sums_)(p_, t));
   }
   /// theta'' where it is at a time.
   double acceleration(double rotation, double t) const noexcept {
@@ -229,7 +251,7 @@ class RockingLeg {
   /// p^2 (G/g - 1)(theta - s alpha) theta'.
   double input(const Place& end, double t) const noexcept {
     const double integral = integral_of_rotation(t);  // of theta - theta0
-    double work = -square_ * ((n0_ + t * n1_) * (end.rotation - start_.rotation) - n1_ * integral);
+    double work = work_of_ground(square_, n0_, n1_, t, end.rotation - start_.rotation, integral);
     const double first = heavy0_ - standard_gravity, last = first + t * heavy1_;
     if (!equal(first, 0) || !equal(last, 0)) {
       const auto potential = [&](double theta) { return theta * (theta / 2 - tilt_); };
@@ -240,6 +262,8 @@ class RockingLeg {
   }
 
  private:
+  HyperbolicMotion hyperbolic() const noexcept { return {start_, a0_, c1_, p_}; }
+
   static constexpr int highest = 24;
   using Polynomial = std::array<double, highest + 1>;
 
@@ -271,7 +295,7 @@ class RockingLeg {
     for (const double near : zeros(2 * a0_ / (p_ * p_) - start_.rotation, start_.rate / p_, start_.rotation))
       if (near > low && near < high) t = near;
     for (;;) {
-      const Place place = at(HyperbolicSums(p_, t));
+      const Place place = hyperbolic().at(HyperbolicSums(p_, t));
       const double room = s * place.rotation, slope = s * place.rate;
       if (equal(room, 0)) return t;
       (room > 0 ? low : high) = t;
@@ -305,8 +329,7 @@ class RockingLeg {
       for (int k = order_; k > 0; --k) value = (value + series_[static_cast<std::size_t>(k)] / (k + 1)) * u;
       return value * t;
     }
-    const HyperbolicSums& s = (*sums_)(p_, t);
-    return start_.rate * s.second - a0_ * s.third / (p_ * p_) + c1_ * (t * t / 2 - s.second);
+    return hyperbolic().integral_of_rotation((*sums_)(p_, t), t);
   }
   // Of theta^2/2 - s alpha theta.
   double integral_of_potential(double t) const noexcept {
