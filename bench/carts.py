@@ -1,27 +1,91 @@
 """Carts on casters and feet, from a single history to a thousand random headings.
 
+    pip install mujoco
     python bench/carts.py [--check] [--rounds N]
 
 Answers are checked before they are timed: against the values of tests/data/carts.json, and by the
 balance of energy. `--check` runs the checks alone.
+
+With MuJoCo installed, the same four casters are also built from bodies, hinges and contacts: errors
+for several settings, and times in turns. Each wheel touches the floor at two points, HALF to each
+side of its middle plane, with half of its load each; a massless one is a `SwivelCaster` with
+side_mu = MU HALF/sqrt(TRAIL^2 + HALF^2) and reach = TRAIL + HALF^2/TRAIL. There is no rolling
+resistance in either program.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import math
 import sys
+from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import stickslip as ss
-from measure import bar, machine, take_turns
+from measure import UNRELIABLE, bar, machine, peer, take_turns, versions
 
 DATA = Path(__file__).parents[1] / "tests" / "data" / "carts.json"
 OUTLINE = [(0.4, 0.3), (-0.4, 0.3), (-0.4, -0.3), (0.4, -0.3)]
 PLACES = [(0.3, 0.2), (0.3, -0.2), (-0.3, 0.2), (-0.3, -0.2)]
 HEADINGS = [0.3, 2.0, -2.5, -0.7]
 M = np.arange(401)
+RADIUS_OF_GYRATION, SLIP_LEVEL, REACH = 0.25, 0.97, 0.041
+G = ss.STANDARD_GRAVITY
+
+# The wheels in MuJoCo.
+MU = 0.5  # between wheel and floor
+TRAIL = REACH * (1 - (SLIP_LEVEL / (MU * G)) ** 2)  # [m]
+HALF = math.sqrt(TRAIL * (REACH - TRAIL))  # [m]
+COMPARED = 101  # samples, 10 s: later the two motions part, as any two with an error do
+
+
+@dataclass(frozen=True)
+class Setting:
+    """Of MuJoCo."""
+
+    step: float  # [s]
+    impratio: float
+    # Of the center of mass above the floor [m], for a rigid body on four wheels; None: the load of
+    # each wheel is its share.
+    height: float | None = None
+
+    def __str__(self) -> str:
+        text = f"MuJoCo, {1000 * self.step:g} ms, impratio {self.impratio:g}"
+        return text if self.height is None else f"{text}, rigid body, {self.height:g} m"
+
+
+SETTINGS = (Setting(1e-3, 10), Setting(1e-3, 1e4), Setting(2e-4, 1e5), Setting(4e-5, 1e5))
+RIGID_BODIES = (Setting(2e-4, 1e5, height=0.0), Setting(2e-4, 1e5, height=0.3))
+CLOSE = 0.005  # the largest error of SETTINGS[-1], over the largest displacement
+
+# Without a rigid body, each fork slides along its pivot, pressed down by the share of the load; the
+# armature adds inertia to this slide alone.
+MODEL = """
+<mujoco><compiler angle="radian"/>
+<option timestep="{step}" gravity="0 0 {gravity}" cone="elliptic" impratio="{impratio}"
+ integrator="implicitfast" solver="Newton" iterations="100" tolerance="1e-12"/>
+<default><geom condim="3" friction="{mu} 0 0" solref="{softness} 1" solimp="0.99 0.99 0.001"/>
+</default>
+<worldbody><geom type="plane" size="50 50 1" contype="0" conaffinity="1"/>
+<body><joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 1 0"/>
+<joint type="hinge" axis="0 0 1"/>{tilts}
+<inertial pos="0 0 {height}" mass="1" diaginertia="{inertia} {inertia} {inertia}"/>
+{wheels}</body></worldbody></mujoco>
+"""
+TILTS = """<joint type="slide" axis="0 0 1"/><joint type="hinge" axis="1 0 0"/>
+<joint type="hinge" axis="0 1 0"/>"""
+WHEEL = """
+<body pos="{x} {y} 0.03" euler="0 0 {heading}">{slide}<joint type="hinge" axis="0 0 1"/>{inertial}
+<body pos="{back} 0 0"><joint type="hinge" axis="0 1 0"/>{inertial}
+<geom type="sphere" size="0.03" pos="0 {half} 0" contype="1" conaffinity="0"/>
+<geom type="sphere" size="0.03" pos="0 -{half} 0" contype="1" conaffinity="0"/></body></body>
+"""
+SLIDE = '<joint name="{name}" type="slide" axis="0 0 1" armature="0.1"/>'
+INERTIAL = '<inertial pos="0 0 0" mass="1e-5" diaginertia="1e-8 1e-8 1e-8"/>'
 
 
 def shaking(factor: float, dt: float = 0.1, parts: int = 1) -> ss.GroundMotion:
@@ -32,14 +96,96 @@ def shaking(factor: float, dt: float = 0.1, parts: int = 1) -> ss.GroundMotion:
     return ss.GroundMotion(np.interp(fine, M, x), dt=dt / parts, transverse=np.interp(fine, M, y))
 
 
-def casters(locked: int = 0) -> ss.Cart:
+def casters(locked: int = 0, rolling_mu: float = 0.01) -> ss.Cart:
     supports = [
         ss.Foot(at=at, mu=0.3)
         if i < locked
-        else ss.SwivelCaster(at=at, heading=heading, slip_level=0.97, reach=0.041, rolling_mu=0.01)
+        else ss.SwivelCaster(
+            at=at, heading=heading, slip_level=SLIP_LEVEL, reach=REACH, rolling_mu=rolling_mu
+        )
         for i, (at, heading) in enumerate(zip(PLACES, HEADINGS))
     ]
-    return ss.Cart(supports, radius_of_gyration=0.25, outline=OUTLINE)
+    return ss.Cart(supports, radius_of_gyration=RADIUS_OF_GYRATION, outline=OUTLINE)
+
+
+def start_of(ground: ss.GroundMotion, samples: int) -> ss.GroundMotion:
+    assert ground.transverse is not None
+    return ss.GroundMotion(
+        ground.acceleration[:samples], dt=ground.dt, transverse=ground.transverse[:samples]
+    )
+
+
+# ---- MuJoCo
+
+
+def mujoco_model(mujoco, setting: Setting):
+    rigid = setting.height is not None
+    wheels = [
+        WHEEL.format(
+            x=x, y=y, heading=heading, back=-TRAIL, half=HALF, inertial=INERTIAL,
+            slide="" if rigid else SLIDE.format(name=f"load {i}"),
+        )
+        for i, ((x, y), heading) in enumerate(zip(PLACES, HEADINGS))
+    ]  # fmt: skip
+    return mujoco.MjModel.from_xml_string(
+        MODEL.format(
+            step=setting.step, impratio=setting.impratio, gravity=-G if rigid else 0, mu=MU,
+            softness=2.5 * setting.step, inertia=RADIUS_OF_GYRATION**2,
+            tilts=TILTS if rigid else "", height=setting.height or 0, wheels="".join(wheels),
+        )
+    )  # fmt: skip
+
+
+def by_mujoco(mujoco, setting: Setting, ground: ss.GroundMotion) -> np.ndarray:
+    """Displacement of the center and yaw at the samples: one row (x, y, yaw) each.
+
+    The ground acceleration is the gravity of each step, with its mean over the step.
+    """
+    model = mujoco_model(mujoco, setting)
+    data = mujoco.MjData(model)
+    if setting.height is None:
+        for i in range(len(PLACES)):
+            data.qfrc_applied[model.joint(f"load {i}").dofadr[0]] = -G / len(PLACES)
+    steps = round(ground.dt / setting.step)
+    within = (np.arange(steps) + 0.5) / steps
+    load = -np.stack([ground.acceleration, ground.transverse], axis=1)
+    gravity, position, step = model.opt.gravity, data.qpos, mujoco.mj_step
+    found = [position[:3].copy()]
+    for first, last in pairwise(load):
+        for pull in (first + within[:, None] * (last - first)).tolist():
+            gravity[:2] = pull
+            step(model, data)
+        found.append(position[:3].copy())
+    return np.array(found)
+
+
+def against_mujoco(mujoco, rounds: int) -> None:
+    cart, ground = casters(rolling_mu=0), start_of(shaking(0.7), COMPARED)
+    r = ss.integrate(cart, ground)
+    peak, peak_yaw = np.linalg.norm(r.displacement, axis=1).max(), np.abs(r.yaw).max()
+    print(f"\nfour casters without rolling resistance, 10 s, {len(r.events)} events:", end=" ")
+    print(f"peak {1000 * peak:.1f} mm, {1000 * peak_yaw:.1f} mrad")
+    print("error of the path: largest, at the end; largest of the yaw [% of the peak]")
+    path = 0.0
+    for setting in (*RIGID_BODIES, *SETTINGS):
+        found = by_mujoco(mujoco, setting, ground)
+        off = np.linalg.norm(found[:, :2] - r.displacement, axis=1)
+        path, yaw = off.max() / peak, np.abs(found[:, 2] - r.yaw).max() / peak_yaw
+        print(f"  {setting!s:52} {100 * path:8.2f} {100 * off[-1] / peak:8.2f} {100 * yaw:8.2f}")
+    if not path <= CLOSE:
+        sys.exit(f"wrong answer: {SETTINGS[-1]}: {path:.3g} of the peak")
+    ours = "stickslip"
+    works = {ours: (lambda: ss.integrate(cart, ground), 1)}
+    works |= {str(s): (partial(by_mujoco, mujoco, s, ground), 1) for s in SETTINGS}
+    timings = take_turns(works, rounds)
+    print("times of the 10 s [ms], and over ours")
+    for name, t in timings.items():
+        milliseconds = f"{t.median * 1e-6:9.2f} {100 * t.spread:4.0f} %{' ' if t.reliable else '!'}"
+        print(f"  {name:52} {milliseconds} {t.ratio(timings[ours]):8.0f}")
+    print(UNRELIABLE)
+
+
+# ---- ours
 
 
 def check() -> None:
@@ -55,12 +201,7 @@ def check() -> None:
             for _, x, y, share, level, rho, heading, reach in p["supports"]
         ]  # fmt: skip
         cart = ss.Cart(supports, radius_of_gyration=p["radius_of_gyration"], outline=OUTLINE)
-        ground = shaking(p["factor"])
-        n = p["samples"]
-        short = ss.GroundMotion(
-            ground.acceleration[:n], dt=ground.dt, transverse=ground.transverse[:n]
-        )
-        r = ss.integrate(cart, short)
+        r = ss.integrate(cart, start_of(shaking(p["factor"]), p["samples"]))
         if not abs(r.peak_outline - value["peak_corner"]) <= 1e-11:
             sys.exit(f"wrong answer: {r.peak_outline} for {value['peak_corner']}")
     for locked in (0, 1, 4):
@@ -79,6 +220,7 @@ def main() -> None:
         print("carts: right answers")
         return
     print(machine())
+    print(versions("numpy", "mujoco"))
     long, fine = shaking(0.7), shaking(0.7, parts=10)
     drawn = casters().with_random_headings()
     works = {
@@ -99,6 +241,10 @@ def main() -> None:
     many = timings["random headings, 4,000 segments"].median * 1e-6
     print(bar("a cart of four casters, 40 s with 1,000 events, ms", one, 25))
     print(bar("1,000 random headings over 4,000 samples, s", many, 30))
+    if mujoco := peer("mujoco"):
+        against_mujoco(mujoco, args.rounds)
+    else:
+        print("MuJoCo is not installed: not compared with it")
 
 
 if __name__ == "__main__":
