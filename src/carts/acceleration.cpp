@@ -135,9 +135,10 @@ AccelerationProblem::Trial AccelerationProblem::attempt(const Vector3& p, double
   }
   stuck_.close();
 
-  // The point nearest to the target at which the basis sticks: by Gram-Schmidt, each axis meets its own condition.
+  // The point nearest to the target at which the basis sticks: by Gram-Schmidt, each axis meets its own condition. From
+  // within what the rows leave free, round-off is not magnified where they are almost parallel.
   Trial trial;
-  trial.a = foot_slides ? guess : target;
+  trial.a = stuck_.outside(foot_slides ? guess : target);
   Vector3 axes[3];
   for (std::size_t i = 0; i < stuck_.rank(); ++i) {
     const Vector3& row = stuck_.row(stuck_.basis(i));
@@ -243,27 +244,18 @@ Vector3 AccelerationProblem::slide_feet(const Vector3& target, const std::vector
   return norm(a) <= 2 * norm(target) + norm(start) ? a : start;
 }
 
-void AccelerationProblem::solve(const Vector3& p) {
-  const std::size_t count = lines_.size();
-  modes_.assign(count, 0);
-  rests_ = false;
-  gap_ = std::numeric_limits<double>::infinity();
-  const double scale = scale_of(p);
-  if (!(scale > 0)) {
-    a_ = {};
-    rests_ = true;
-    return;
-  }
-  const Vector3 guess = barrier(p, scale);
+// The mode to which the barrier leads, and those about which it is not certain in every way.
+AccelerationProblem::Trial AccelerationProblem::search(const Vector3& p, double scale, const Vector3& guess) {
   // x (L - |lambda|) is about the barrier parameter, and two powers of ten lie between both rates: of what sticks x falls with it, of what slides L - |lambda|.
+  const std::size_t count = lines_.size();
   certainty_.resize(count);
   for (std::size_t j = 0; j < count; ++j) {
-    const double x = lines_[j].rate(guess, scale), before = rates_[j];
+    const double x = lines_[j].rate(scaled(1 / scale, guess), scale), before = rates_[j];
     const double falls = std::abs(before) / std::max(std::abs(x), 1e-300);
     modes_[j] = static_cast<std::int8_t>(falls > 10 ? 0 : x > 0 ? 1 : -1);
     certainty_[j] = std::abs(std::log(std::max(falls, 1e-300) / 10));
   }
-  Trial best = attempt(p, scale, modes_, scaled(scale, guess));
+  Trial best = attempt(p, scale, modes_, guess);
   if (best.violation > tie) {
     // The least certain lines in every way.
     doubtful_.resize(count);
@@ -279,12 +271,105 @@ void AccelerationProblem::solve(const Vector3& p) {
         std::size_t digits = number;
         for (std::size_t i = 0; i < some; ++i, digits /= 3)
           tried_[doubtful_[i]] = static_cast<std::int8_t>(static_cast<int>(digits % 3) - 1);
-        const Trial trial = attempt(p, scale, tried_, scaled(scale, guess));
+        const Trial trial = attempt(p, scale, tried_, guess);
         if (!(trial.violation < best.violation)) continue;
         best = trial;
         modes_ = tried_;
       }
     }
+  }
+  return best;
+}
+
+// Without feet the sum is quadratic between planes r.a + beta = 0: from the acceleration without friction to the minimum of
+// each cell, along which signs change, a line joins those that stick where the slope changes its sign, and those that leave
+// a face of what sticks are released. The sum falls with each step, so no cell comes twice.
+void AccelerationProblem::walk(const Vector3& p, double scale) {
+  const std::size_t count = lines_.size();
+  Vector3 a = p;
+  for (std::size_t j = 0; j < count; ++j)
+    modes_[j] = static_cast<std::int8_t>(lines_[j].rate(a, 1) < 0 ? -1 : 1);
+  for (int steps = 0; steps < 200; ++steps) {
+    Vector3 target = p;
+    stuck_.clear();
+    for (std::size_t j = 0; j < count; ++j) {
+      if (modes_[j] != 0)
+        add_to(target, -modes_[j] * lines_[j].level, lines_[j].row);
+      else
+        stuck_.add(lines_[j].row, lines_[j].level);
+    }
+    stuck_.close();
+    Vector3 pull = target;
+    add_to(pull, -1, a);
+    const Vector3 way = stuck_.outside(pull);
+    const double square = dot(way, way);
+    if (norm(way) > 1e-15 * scale) {
+      // Where the slope along the way vanishes or changes its sign.
+      double slope = -square, part = 0;
+      for (std::size_t passed = 0;; ++passed) {
+        double next = 2;
+        std::size_t which = count;
+        for (std::size_t j = 0; j < count; ++j) {
+          const double along = modes_[j] * dot(lines_[j].row, way);
+          if (!(along < 0)) continue;
+          const double at = std::max(-modes_[j] * lines_[j].rate(a, 1) / along, part);
+          if (at < next) next = at, which = j;
+        }
+        const double free = part - slope / square;  // where the slope would vanish
+        if (which == count || next >= free) {
+          part = free;
+          break;
+        }
+        slope += square * (next - part);
+        part = next;
+        const double jump = 2 * lines_[which].level * std::abs(dot(lines_[which].row, way));
+        if (slope + jump >= 0) {
+          modes_[which] = 0;
+          break;
+        }
+        slope += jump;
+        modes_[which] = static_cast<std::int8_t>(-modes_[which]);
+      }
+      add_to(a, part, way);
+      continue;
+    }
+    // The minimum of the cell: what sticks carries the rest, or leaves through its most loaded face.
+    const Zonotope::Face* worst = nullptr;
+    double least = -1e-14 * scale;
+    for (const Zonotope::Face& face : stuck_.faces()) {
+      const double margin = face.reach - dot(face.normal, pull);
+      if (margin < least) least = margin, worst = &face;
+    }
+    if (worst == nullptr) return;
+    const Vector3 normal = worst->normal;
+    std::size_t i = 0;
+    for (std::size_t j = 0; j < count; ++j) {
+      if (modes_[j] != 0) continue;
+      modes_[j] = static_cast<std::int8_t>(stuck_.leaves(normal, i));
+      ++i;
+    }
+  }
+}
+
+void AccelerationProblem::solve(const Vector3& p) {
+  const std::size_t count = lines_.size();
+  modes_.assign(count, 0);
+  rests_ = false;
+  gap_ = std::numeric_limits<double>::infinity();
+  const double scale = scale_of(p);
+  if (!(scale > 0)) {
+    a_ = {};
+    rests_ = true;
+    return;
+  }
+  Trial best;
+  Vector3 guess{};
+  if (std::any_of(lines_.begin(), lines_.end(), [](const Line& line) { return line.foot; })) {
+    guess = scaled(scale, barrier(p, scale));
+    best = search(p, scale, guess);
+  } else {
+    walk(p, scale);
+    best = attempt(p, scale, modes_, guess);
   }
   // Ties stick.
   for (std::size_t j = 0; j < count; ++j) {
@@ -293,7 +378,7 @@ void AccelerationProblem::solve(const Vector3& p) {
     if (modes_[j] == 0 || !(std::abs(x) <= tie * scale * length)) continue;
     tried_ = modes_;
     tried_[j] = 0;
-    const Trial trial = attempt(p, scale, tried_, scaled(scale, guess));
+    const Trial trial = attempt(p, scale, tried_, guess);
     if (trial.violation > tie) continue;
     best = trial;
     modes_ = tried_;

@@ -16,9 +16,9 @@ namespace stickslip::detail {
 /// unknowns: a is unique. Lines with r.a + beta != 0 and feet with J a != 0 start to slide in that direction, the others
 /// stick.
 ///
-/// A logarithmic barrier on the dual, |lambda| <= L, gives a and the lines that stick without a starting guess, and does not
-/// mind dependent rows. The mode is then solved exactly and checked; those lines about which the barrier is not certain are
-/// tried in every way. A tie sticks.
+/// Without feet the sum is quadratic in each cell between planes, and its minimum is found exactly. With feet a logarithmic
+/// barrier on the dual, |lambda| <= L, gives a and what sticks without a starting guess, and does not mind dependent rows; the
+/// mode is then solved exactly and checked, and what the barrier is not certain of is tried in every way. A tie sticks.
 class AccelerationProblem {
  public:
   void clear() noexcept { lines_.clear(); }
@@ -60,6 +60,8 @@ class AccelerationProblem {
 
   double scale_of(const Vector3& p) const noexcept;
   Vector3 barrier(const Vector3& p, double scale);
+  void walk(const Vector3& p, double scale);
+  Trial search(const Vector3& p, double scale, const Vector3& guess);
   Trial attempt(const Vector3& p, double scale, const std::vector<std::int8_t>& modes, const Vector3& guess);
   Vector3 slide_feet(const Vector3& target, const std::vector<std::int8_t>& modes, Vector3 a) const;
 

@@ -470,22 +470,25 @@ class CartLeg {
       Vector3 y{};
       for (std::size_t i = 0; i < 3; ++i) y[i] = h * force[i] * per_next;
       if (rank > 0) {
-        double rest[3];
+        double known[3];  // of the rate of each speed, without the next order of the velocities
         for (std::size_t i = 0; i < rank; ++i) {
           Roll& roll = rolls_[basis[i].wheel];
-          const CartModel::Wheel& wheel = model_.wheels[basis[i].wheel];
-          roll.pivot_x[next] = y[0] - y[2] * wheel.lever_y;
-          roll.pivot_y[next] = y[1] + y[2] * wheel.lever_x;
-          if (wheel.caster == CartModel::none) roll.cosine[next] = roll.sine[next] = 0;
-          rest[i] = basis[i].along
-                        ? convolve(roll.cosine, roll.pivot_x, 0, k + 1) + convolve(roll.sine, roll.pivot_y, 0, k + 1)
-                        : convolve(roll.cosine, roll.pivot_y, 0, k + 1) - convolve(roll.sine, roll.pivot_x, 0, k + 1);
+          roll.pivot_x[next] = roll.pivot_y[next] = 0;
+          if (model_.wheels[basis[i].wheel].caster == CartModel::none) roll.cosine[next] = roll.sine[next] = 0;
+          known[i] = basis[i].along
+                         ? convolve(roll.cosine, roll.pivot_x, 0, k + 1) + convolve(roll.sine, roll.pivot_y, 0, k + 1)
+                         : convolve(roll.cosine, roll.pivot_y, 0, k + 1) - convolve(roll.sine, roll.pivot_x, 0, k + 1);
         }
-        for (std::size_t i = 0; i < rank; ++i) {
-          double change = 0;  // lambda_k h / (k + 1)
-          for (std::size_t j = 0; j < rank; ++j) change += inverse[i][j] * rest[j];
-          margins_[i][at] = h > 0 ? change * (k + 1) / h : 0;
-          add_to(y, -change, basis[i].row);
+        // Twice, so that what is left is round-off of the velocities, not of the forces.
+        for (int twice = 0; twice < 2; ++twice) {
+          double rest[3];
+          for (std::size_t i = 0; i < rank; ++i) rest[i] = known[i] + dot(basis[i].row, y);
+          for (std::size_t i = 0; i < rank; ++i) {
+            double change = 0;  // lambda_k h / (k + 1)
+            for (std::size_t j = 0; j < rank; ++j) change += inverse[i][j] * rest[j];
+            if (h > 0) margins_[i][at] += change * (k + 1) / h;
+            add_to(y, -change, basis[i].row);
+          }
         }
       }
       for (std::size_t i = 0; i < 3; ++i) y_[i][next] = y[i];

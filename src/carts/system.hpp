@@ -205,7 +205,7 @@ class CartSystem {
       const Vector3 normal = *departure.face;
       for (std::size_t l = 0; l < model_.lines.size(); ++l) {
         state_.lines[l] = static_cast<std::int8_t>(work_.hold.lines().leaves(normal, l));
-        work_.fresh[l] = state_.lines[l] == 0 ? 0 : departure.excess > 0 ? 1 : 2;
+        work_.fresh[l] = state_.lines[l] == 0 ? 0 : departure.excess > 1e-12 * norm(load_at(state_, now_)) ? 1 : 2;
       }
     }
     return std::exchange(stopped_, false) && !(departure.delay > 0) ? Resumption::reversed : Resumption::from_rest;
@@ -340,6 +340,7 @@ class CartSystem {
   // What comes without a leg.
   CartSlide::Now at_once() const {
     using Now = CartSlide::Now;
+    if (at_rest()) return Now::halt;
     if (slaved_ > 0) return Now::slaved;
     if (model_.feet.empty() || !(ground_.heavy(now_) > 0)) return Now::leg;
     const Vector3 y = model_.velocities(state_);

@@ -74,14 +74,18 @@ class Zonotope {
     if (rank_ == 1) {
       look(axes_[0]);
     } else if (rank_ == 2) {
-      const Vector3 w = cross(axes_[0], axes_[1]);
+      across_ = unit(cross(axes_[0], axes_[1]));
       for (std::size_t j = 0; j < rows_.size(); ++j)
-        if (lengths_[j] > 0) look(unit(cross(w, rows_[j])));
+        if (lengths_[j] > 0) look(unit(cross(across_, rows_[j])));
     } else if (rank_ == 3) {
       for (std::size_t i = 0; i < rows_.size(); ++i)
         for (std::size_t j = i + 1; j < rows_.size(); ++j) {
-          const Vector3 u = cross(rows_[i], rows_[j]);
-          if (norm(u) > parallel * lengths_[i] * lengths_[j]) look(unit(u));
+          if (!(lengths_[i] > 0) || !(lengths_[j] > 0)) continue;
+          // Across both rows to round-off, even where they are almost parallel.
+          const Vector3 one = unit(rows_[i]);
+          Vector3 other = unit(rows_[j]);
+          for (int twice = 0; twice < 2; ++twice) add_to(other, -dot(one, other), one);
+          if (norm(other) > parallel) look(unit(cross(one, unit(other))));
         }
     }
   }
@@ -95,9 +99,12 @@ class Zonotope {
   const Vector3& row(std::size_t j) const noexcept { return rows_[j]; }
   double level(std::size_t j) const noexcept { return levels_[j]; }
 
-  /// The part of a vector outside the span of the rows.
+  /// The part of a vector outside the span of the rows. Where that is one direction, its components have no round-off but of
+  /// the direction, however small it is beside the vector.
   Vector3 outside(Vector3 f) const noexcept {
-    for (std::size_t i = 0; i < rank_; ++i) add_to(f, -dot(axes_[i], f), axes_[i]);
+    if (rank_ == 3) return {};
+    if (rank_ == 2) return scaled(dot(across_, f), across_);
+    if (rank_ == 1) add_to(f, -dot(axes_[0], f), axes_[0]);
     return f;
   }
   /// The direction in which a row slides out of a face; 0 if it stays.
@@ -127,6 +134,7 @@ class Zonotope {
   std::vector<double> levels_, lengths_;
   std::vector<Face> faces_;
   std::array<Vector3, 3> axes_{};
+  Vector3 across_{};  // both axes of rank 2
   std::array<std::size_t, 3> basis_{};
   std::size_t rank_ = 0;
 };

@@ -514,6 +514,36 @@ TEST_CASE("Carts refuse what they cannot mean, and name the support", "[carts]")
                   ConvergenceError);
 }
 
+TEST_CASE("A cart whose wheels are almost parallel rolls on after a stop", "[carts]") {
+  // Headings of a few 1e-4 that differ by 5e-8: together the lines across would hold the cart, by less than the error of a decision.
+  std::vector<Support> supports;
+  for (const Vector2& at : {places[0], places[1]}) supports.push_back(SwivelCaster{at, 0, side, reach, 0.01, {}});
+  for (const Vector2& at : {places[2], places[3]}) supports.push_back(FixedWheel{at, 0, 0.5, 0.01, {}});
+  const Cart cart(std::move(supports), 0.25);
+  for (const double apart : {5e-8, 1e-10, 1e-13, 0.0}) {
+    CartState state;
+    state.headings = {-0.00024781, -0.00024781 - apart};
+    const double first = -0.11, last = -0.16, duration = 0.007;
+    advance(cart, {duration, {first, 0}, {last, 0}}, state);
+    // Rolling alone; the casters slip sideways by 1e-4 of it.
+    const double rolls = (-(first + last) / 2 - 0.01 * g) * duration;
+    CHECK(state.velocity.axis == Approx(rolls).epsilon(1e-3));
+    advance(cart, {1, {}, {}}, state);
+    CHECK(state.mode == CartMode::rest);
+  }
+  // In motion, through a rest that ends at once: a decision names the wrong direction of one line.
+  CartState state{.displacement = {0.9968371698846167, 0.0015094527659777074},
+                  .yaw = 0.0008531473346193742,
+                  .velocity = {0.0017213810429339365, 1.264966205521309e-06},
+                  .yaw_rate = -6.78752417754978e-07,
+                  .headings = {-0.00023656053172625035, -0.00023660273043046184},
+                  .mode = CartMode::moving,
+                  .lines = {-1, 1, 0, 1, 0, 1, 0, 1}};
+  advance(cart, {0.02, {-0.061048161446999996, 0}, {0.141228508645, 0}}, state);
+  CHECK(state.velocity.axis < -1e-5);
+  CHECK(state.velocity.axis > -1e-3);
+}
+
 TEST_CASE("A cart with a locked caster comes to rest without ground motion", "[carts]") {
   // About the foot, with all wheels rolling: no load is left that could move it again.
   std::mt19937_64 random(7);
