@@ -44,8 +44,10 @@ Vector3 AccelerationProblem::barrier(const Vector3& p, double scale) {
   Vector3 a{};
   rates_.assign(lines_.size(), 0);
   const Vector3 target = scaled(1 / scale, p);
-  const auto push = [](double x, double level, double mu) {
-    const double q = std::hypot(mu, x * level);
+  // All is over the scale: no square overflows.
+  const auto size = [](double x, double y) { return std::sqrt(x * x + y * y); };
+  const auto push = [&size](double x, double level, double mu) {
+    const double q = size(mu, x * level);
     return x * level * level / (mu + q);
   };
   const auto residual = [&](const Vector3& at, double mu) {
@@ -57,8 +59,8 @@ Vector3 AccelerationProblem::barrier(const Vector3& p, double scale) {
         add_to(f, push(x, level, mu), line.row);
         continue;
       }
-      const double z = dot(line.other, at), speed = std::hypot(x, z);
-      const double by = level * level / (mu + std::hypot(mu, speed * level));  // the force over the speed
+      const double z = dot(line.other, at), speed = size(x, z);
+      const double by = level * level / (mu + size(mu, speed * level));  // the force over the speed
       add_to(f, by * x, line.row);
       add_to(f, by * z, line.other);
     }
@@ -78,8 +80,8 @@ Vector3 AccelerationProblem::barrier(const Vector3& p, double scale) {
       };
       for (const Line& line : lines_) {
         const double level = line.level / scale, x = dot(line.row, a) + line.beta / scale;
-        const double z = line.foot ? dot(line.other, a) : 0, speed = line.foot ? std::hypot(x, z) : x;
-        const double q = std::hypot(mu, speed * level), steep = level * level * mu / (q * (mu + q));
+        const double z = line.foot ? dot(line.other, a) : 0, speed = line.foot ? size(x, z) : x;
+        const double q = size(mu, speed * level), steep = level * level * mu / (q * (mu + q));
         if (!line.foot) {
           stiffen(steep, line.row, line.row);
           continue;

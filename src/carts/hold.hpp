@@ -22,6 +22,7 @@ class CartHold {
   void set(const CartModel& model, const CartState& state) {
     lines_.clear();
     feet_.clear();
+    known_.clear();
     for (const CartModel::Line& line : model.lines) lines_.add(model.row(line, state), line.coefficient);
     for (const CartModel::Foot& foot : model.feet)
       feet_.push_back({model.row_axis(foot), model.row_transverse(foot), foot.coefficient});
@@ -56,6 +57,30 @@ class CartHold {
     normal = scaled(1 / norm(problem_.acceleration()), problem_.acceleration());
     return true;
   }
+  /// Whether a load in the plane is carried, as far as is known: what is carried is convex, and so is what is known of it.
+  bool surely_carries(const Vector3& load, double weight) const noexcept {
+    for (std::size_t i = 0; i < known_.size(); ++i) {
+      const Vector2& b = known_[i];
+      // Along one direction, what is known is narrow.
+      const double square = stickslip::dot(b, b), along = b.axis * load[0] + b.transverse * load[1],
+                   beside = b.axis * load[1] - b.transverse * load[0];
+      if (std::abs(along) <= weight * square && std::abs(beside) <= 1e-9 * weight * square) return true;
+      for (std::size_t j = i + 1; j < known_.size(); ++j) {
+        const Vector2& c = known_[j];
+        const double area = std::abs(stickslip::cross(b, c)), other = c.axis * load[1] - c.transverse * load[0];
+        if (std::abs(beside) + std::abs(other) <= weight * area) return true;
+      }
+    }
+    return false;
+  }
+  /// Finds what is carried in the direction of a load in the plane, for `surely_carries`.
+  void learn(const Vector3& load) {
+    constexpr std::size_t most = 8;
+    if (!(norm(load) > 0)) return;
+    if (known_.size() == most) known_.erase(known_.begin());
+    const double part = 0.999 * along(load);
+    known_.push_back({part * load[0], part * load[1]});
+  }
   /// The largest multiple of a load that is carried.
   double along(const Vector3& load) {
     if (feet_.empty()) {
@@ -83,6 +108,7 @@ class CartHold {
   };
   Zonotope lines_;
   std::vector<Disc> feet_;
+  std::vector<Vector2> known_;  // loads that are carried, over the weight; their opposites are too
   AccelerationProblem problem_;
 };
 

@@ -138,6 +138,7 @@ class CartSystem {
         soonest = std::min(soonest, delay);
       };
       if (work_.hold.has_feet()) {
+        if (work_.hold.surely_carries(from, heavy_from) && work_.hold.surely_carries(to, heavy_to)) return;
         // Loads are carried in an interval of time: from outside each plane cuts nearer.
         Vector3 normal{};
         if (work_.hold.leaves(from, heavy_from, normal)) {
@@ -156,6 +157,7 @@ class CartSystem {
           if (!(next < part)) break;
           part = next;
         }
+        if (!first.leaves) work_.hold.learn(norm(from) > norm(to) ? from : to);
         return;
       }
       const Zonotope& lines = work_.hold.lines();
