@@ -6,10 +6,8 @@
 Answers are checked before they are timed: against the values of tests/data/carts.json, and by the
 balance of energy. `--check` runs the checks alone.
 
-With MuJoCo installed, the same four casters are also built from bodies, hinges and contacts: errors
-for several settings, and times in turns. Each wheel touches the floor at two points, HALF to each
-side of its middle plane, with half of its load each; a massless one is a `SwivelCaster` with
-side_mu = MU HALF/sqrt(TRAIL^2 + HALF^2) and reach = TRAIL + HALF^2/TRAIL. There is no rolling
+With MuJoCo installed, the same four casters are also built from bodies, hinges and contacts, by the
+adapter of the referee: errors for several settings, and times in turns. There is no rolling
 resistance in either program.
 """
 
@@ -17,7 +15,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import math
 import sys
 from dataclasses import dataclass
 from functools import partial
@@ -27,6 +24,8 @@ from pathlib import Path
 import numpy as np
 import stickslip as ss
 from measure import UNRELIABLE, bar, machine, peer, take_turns, versions
+from stickslip.referee.adapters import mujoco_engine
+from stickslip.referee.time_steps import Cart
 
 DATA = Path(__file__).parents[1] / "tests" / "data" / "carts.json"
 OUTLINE = [(0.4, 0.3), (-0.4, 0.3), (-0.4, -0.3), (0.4, -0.3)]
@@ -36,10 +35,7 @@ M = np.arange(401)
 RADIUS_OF_GYRATION, SLIP_LEVEL, REACH = 0.25, 0.97, 0.041
 G = ss.STANDARD_GRAVITY
 
-# The wheels in MuJoCo.
-MU = 0.5  # between wheel and floor
-TRAIL = REACH * (1 - (SLIP_LEVEL / (MU * G)) ** 2)  # [m]
-HALF = math.sqrt(TRAIL * (REACH - TRAIL))  # [m]
+MU = 0.5  # between wheel and floor in MuJoCo
 COMPARED = 101  # samples, 10 s: later the two motions part, as any two with an error do
 
 
@@ -61,31 +57,6 @@ class Setting:
 SETTINGS = (Setting(1e-3, 10), Setting(1e-3, 1e4), Setting(2e-4, 1e5), Setting(4e-5, 1e5))
 RIGID_BODIES = (Setting(2e-4, 1e5, height=0.0), Setting(2e-4, 1e5, height=0.3))
 CLOSE = 0.005  # the largest error of SETTINGS[-1], over the largest displacement
-
-# Without a rigid body, each fork slides along its pivot, pressed down by the share of the load; the
-# armature adds inertia to this slide alone.
-MODEL = """
-<mujoco><compiler angle="radian"/>
-<option timestep="{step}" gravity="0 0 {gravity}" cone="elliptic" impratio="{impratio}"
- integrator="implicitfast" solver="Newton" iterations="100" tolerance="1e-12"/>
-<default><geom condim="3" friction="{mu} 0 0" solref="{softness} 1" solimp="0.99 0.99 0.001"/>
-</default>
-<worldbody><geom type="plane" size="50 50 1" contype="0" conaffinity="1"/>
-<body><joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 1 0"/>
-<joint type="hinge" axis="0 0 1"/>{tilts}
-<inertial pos="0 0 {height}" mass="1" diaginertia="{inertia} {inertia} {inertia}"/>
-{wheels}</body></worldbody></mujoco>
-"""
-TILTS = """<joint type="slide" axis="0 0 1"/><joint type="hinge" axis="1 0 0"/>
-<joint type="hinge" axis="0 1 0"/>"""
-WHEEL = """
-<body pos="{x} {y} 0.03" euler="0 0 {heading}">{slide}<joint type="hinge" axis="0 0 1"/>{inertial}
-<body pos="{back} 0 0"><joint type="hinge" axis="0 1 0"/>{inertial}
-<geom type="sphere" size="0.03" pos="0 {half} 0" contype="1" conaffinity="0"/>
-<geom type="sphere" size="0.03" pos="0 -{half} 0" contype="1" conaffinity="0"/></body></body>
-"""
-SLIDE = '<joint name="{name}" type="slide" axis="0 0 1" armature="0.1"/>'
-INERTIAL = '<inertial pos="0 0 0" mass="1e-5" diaginertia="1e-8 1e-8 1e-8"/>'
 
 
 def shaking(factor: float, dt: float = 0.1, parts: int = 1) -> ss.GroundMotion:
@@ -118,44 +89,33 @@ def start_of(ground: ss.GroundMotion, samples: int) -> ss.GroundMotion:
 # ---- MuJoCo
 
 
-def mujoco_model(mujoco, setting: Setting):
-    rigid = setting.height is not None
-    wheels = [
-        WHEEL.format(
-            x=x, y=y, heading=heading, back=-TRAIL, half=HALF, inertial=INERTIAL,
-            slide="" if rigid else SLIDE.format(name=f"load {i}"),
-        )
-        for i, ((x, y), heading) in enumerate(zip(PLACES, HEADINGS))
-    ]  # fmt: skip
-    return mujoco.MjModel.from_xml_string(
-        MODEL.format(
-            step=setting.step, impratio=setting.impratio, gravity=-G if rigid else 0, mu=MU,
-            softness=2.5 * setting.step, inertia=RADIUS_OF_GYRATION**2,
-            tilts=TILTS if rigid else "", height=setting.height or 0, wheels="".join(wheels),
-        )
-    )  # fmt: skip
-
-
 def by_mujoco(mujoco, setting: Setting, ground: ss.GroundMotion) -> np.ndarray:
     """Displacement of the center and yaw at the samples: one row (x, y, yaw) each.
 
     The ground acceleration is the gravity of each step, with its mean over the step.
     """
-    model = mujoco_model(mujoco, setting)
-    data = mujoco.MjData(model)
-    if setting.height is None:
-        for i in range(len(PLACES)):
-            data.qfrc_applied[model.joint(f"load {i}").dofadr[0]] = -G / len(PLACES)
+    supports = [
+        {
+            "at": at, "share": 1 / len(PLACES), "heading": heading,
+            "side_mu": SLIP_LEVEL / G, "rolling_mu": 0.0, "reach": REACH,
+        }
+        for at, heading in zip(PLACES, HEADINGS)
+    ]  # fmt: skip
+    roll = mujoco_engine.roll(
+        mujoco,
+        Cart(setting.step, RADIUS_OF_GYRATION, supports),
+        setting.impratio,
+        mu=MU,
+        height=setting.height,
+    )
     steps = round(ground.dt / setting.step)
     within = (np.arange(steps) + 0.5) / steps
     load = -np.stack([ground.acceleration, ground.transverse], axis=1)
-    gravity, position, step = model.opt.gravity, data.qpos, mujoco.mj_step
-    found = [position[:3].copy()]
+    found = [(0.0, 0.0, 0.0)]
     for first, last in pairwise(load):
-        for pull in (first + within[:, None] * (last - first)).tolist():
-            gravity[:2] = pull
-            step(model, data)
-        found.append(position[:3].copy())
+        for x, y in (first + within[:, None] * (last - first)).tolist():
+            at = roll(x, y, -G)
+        found.append(at)
     return np.array(found)
 
 

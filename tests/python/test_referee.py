@@ -8,8 +8,9 @@ import pytest
 from pages import ROOT
 from stickslip import referee
 from stickslip.referee import __main__ as command
-from stickslip.referee import report, tools
+from stickslip.referee import report, time_steps, tools
 from stickslip.referee.adapters import own
+from stickslip.referee.problems import NotTriedError
 
 FOLDER = ROOT / "referee" / "problems"
 PROBLEMS = referee.problems(FOLDER)
@@ -112,6 +113,28 @@ def test_every_adapter_states_its_purpose_and_its_settings():
         assert len(adapter.COSTS) == (1 if adapter is own else 3)
     with pytest.raises(referee.NotExpressibleError, match="sliding in both directions"):
         tools.adapters()[tools.MODULES.index("pyslammer_rigid")].solve(PROBLEMS[0], 0)
+
+
+def test_an_engine_steps_a_cart_under_the_means_of_the_ground():
+    (cart,) = (one for one in PROBLEMS if one.id == "cart-stays")
+    forces = []
+
+    def build(built):
+        assert (built.step, len(built.supports)) == (0.01, 4)
+
+        def roll(*force):
+            forces.append(force)
+            return 0.0, 0.0, 0.0
+
+        return roll
+
+    assert cart.error(time_steps.march(cart, 0.01, None, roll=build)) == 0
+    along, g = cart.component("along"), cart.system["gravity"]
+    assert len(forces) == 2 * (len(along) - 1)
+    assert forces[1][0] == pytest.approx(-(along[0] + 3 * along[1]) / 4, rel=1e-12)
+    assert {force[2] for force in forces} == {-g}
+    with pytest.raises(NotTriedError):
+        time_steps.march(cart, 0.01, None)
 
 
 def test_the_command_runs_a_tool_keeps_its_results_and_reads_them(tmp_path, capsys):

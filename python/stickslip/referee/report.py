@@ -25,7 +25,7 @@ class Entry:
     errors: list[float] = field(default_factory=list[float])
     seconds: list[float] = field(default_factory=list[float])
     left_out: int = 0  # not expressible, or not tried
-    tried: bool = False  # at least one is not expressible by the tool itself
+    untried: bool = False  # the tool may be able to express one of them
 
     @property
     def error(self) -> float:
@@ -65,7 +65,7 @@ def gather(results: Iterable[Mapping[str, Any]], problems: Sequence[Problem]) ->
             entry = by_class[problem.group][costs.index(one["cost"])]
             if "not_expressible" in one or "not_tried" in one:
                 entry.left_out += 1
-                entry.tried = entry.tried or "not_expressible" in one
+                entry.untried = entry.untried or "not_tried" in one
             elif "failed" in one:
                 entry.errors.append(math.inf)
             else:
@@ -93,7 +93,7 @@ def cell(entries: Sequence[Entry], cost: int = -1) -> str:
         return "-"
     entry = entries[cost]
     if not entry.errors:
-        return "n/e" if entry.tried else "not tried"
+        return "n/e" if entry.left_out and not entry.untried else "not tried"
     left = f" ({len(entry.errors)})" if entry.left_out else ""
     return f"{number(entry.error)}{left}"
 
