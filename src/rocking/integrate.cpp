@@ -51,19 +51,6 @@ class NoRockingSink final : public RockingSink {
   void event(EventKind, double, const RockingState&) override {}
 };
 
-// Moves a state through a segment. A block that lies on its side stays there.
-void move(const SlenderBlock& block, const RockingSegment& ground, RockingState& state, RockingSink& sink) {
-  if (!(ground.duration > 0) || lies(state)) return;
-  RockingSystem system(block, ground, state, sink.sums());
-  stickslip::detail::advance(system, sink);
-  if (!lies(state)) return;
-  const double before = kinetic_energy(state) + elastic_energy(block, state);
-  state.overturned = state.rotation > 0 ? 1 : -1;
-  state.rotation = std::copysign(quarter_turn, state.rotation);
-  state.rate = 0;
-  sink.fall(before - elastic_energy(block, state));
-}
-
 class RockingRecorder final : public RockingSink, public EventLog<double>, public Pace<4096> {
  public:
   RockingRecorder(const SlenderBlock& block, const GroundMotion& motion, const RockingState& state,
@@ -180,8 +167,7 @@ class RockingRecorder final : public RockingSink, public EventLog<double>, publi
     const double r = block_.restitution();
     const double other = state.rate > 0 ? block_.alpha_right() : -block_.alpha_left();  // it goes on with its rate
     const double leaves = block_.p() * block_.p() / standard_gravity * (-ground_.heavy(time) * other - ground_.n(time));
-    const double shift = variation_.rotation / state.rate;
-    variation_ = {r * variation_.rotation, r * variation_.rate - (r * arrives_ - leaves) * shift};
+    variation_ = after_impact(variation_, r, state.rate, arrives_, leaves);
   }
 
   const SlenderBlock& block_;
@@ -234,7 +220,7 @@ class RockingRun {
       const bool glides = !motion_.has_vertical() && ground.duration > 0 && !lies(state) && !is_stuck(state);
       if (!(glides && recorder.glide(ground, motion_.time(i + 1), state))) {
         recorder.begin_segment(motion_.time(i), motion_.time(i + 1), ground, i);
-        move(block_, ground, state, recorder);
+        rock(block_, ground, state, recorder);
       }
       judge(i + 1, state, recorder);
       recorder.sample(state);
@@ -261,7 +247,7 @@ class RockingRun {
             "integrate: a block with a restitution of 1 never comes to rest; integrate it without settle");
       const RockingSegment calm = calm_for(longest);
       recorder.begin_segment(time, time + longest, calm, {});
-      move(block_, calm, state, recorder);
+      rock(block_, calm, state, recorder);
       time += longest;
       if (state.overturned != 0) recorder.overturned(recorder.last_event(), state);
     }
@@ -270,7 +256,7 @@ class RockingRun {
     NoRockingSink none;
     keep_until(
         end, motion_, at_end_of_motion, state, response,
-        [&](const RockingSegment& calm, State& one) { move(block_, calm, one, none); },
+        [&](const RockingSegment& calm, State& one) { rock(block_, calm, one, none); },
         [&](const State& one) {
           response.rotation.push_back(one.rotation);
           response.rate.push_back(one.rate);
@@ -323,6 +309,18 @@ class RockingRun {
 
 }  // namespace
 
+void rock(const SlenderBlock& block, const RockingSegment& ground, RockingState& state, RockingSink& sink) {
+  if (!(ground.duration > 0) || lies(state)) return;
+  RockingSystem system(block, ground, state, sink.sums());
+  stickslip::detail::advance(system, sink);
+  if (!lies(state)) return;
+  const double before = kinetic_energy(state) + elastic_energy(block, state);
+  state.overturned = state.rotation > 0 ? 1 : -1;
+  state.rotation = std::copysign(quarter_turn, state.rotation);
+  state.rate = 0;
+  sink.fall(before - elastic_energy(block, state));
+}
+
 RockingResponse integrate_without_samples(const SlenderBlock& block, const GroundMotion& motion,
                                           const RockingOptions& options) {
   return integrate_run(RockingRun(block, motion, options, Samples::dropped), {});
@@ -342,7 +340,7 @@ void advance(const SlenderBlock& block, const RockingGround& segment, RockingSta
                     standard_gravity + up, "m/s^2");
   RockingState moved = state;
   detail::NoRockingSink none;
-  detail::move(block, ground, moved, none);
+  detail::rock(block, ground, moved, none);
   state = moved;
 }
 

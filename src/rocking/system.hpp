@@ -39,6 +39,14 @@ class RockingSink {
   LastSums sums_;
 };
 
+/// The variation of a motion with a parameter, after an impact at a time that varies.
+/// @param rate             theta' before it, which becomes r theta'
+/// @param arrives, leaves  theta'' before and after it
+inline RockingPlace after_impact(const RockingPlace& variation, double r, double rate, double arrives,
+                                 double leaves) noexcept {
+  return {r * variation.rotation, r * variation.rate - (r * arrives - leaves) * (variation.rotation / rate)};
+}
+
 /// The moment by which the ground lifts a block off a corner, over that of its weight G: positive uplifts.
 struct UpliftMargins {
   double right, left;  // -n - alpha_right G, n - alpha_left G
@@ -204,5 +212,8 @@ class RockingSystem {
   double excess_ = -1;  // with which the next leg starts from rest; negative if it does not
   bool stopped_ = false;
 };
+
+/// Moves a state through a segment. A block that lies on its side stays there.
+void rock(const SlenderBlock& block, const RockingSegment& ground, RockingState& state, RockingSink& sink);
 
 }  // namespace stickslip::detail

@@ -343,7 +343,8 @@ SYSTEMS = {
 }
 NOT_OF_SYSTEMS = {
     "no": r"on one axis, got a PlanarSlider|sliders must be a Slider, a friction law|no attribute"
-    r"|sensitivities of structures are not|a Suite, got <(Rocking|Cart)Response"
+    r"|covers a SlenderBlock|sensitivities of structures are not"
+    r"|a Suite, got <(Rocking|Cart)Response"
 }
 
 SHAKING = ss.GaussianExcitation(ss.Spectrum.band_pass(s0=0.3, low=2, high=30), dt=0.05, samples=201)

@@ -175,6 +175,29 @@ def test_a_history_that_hangs_on_round_off_says_so():
     assert ss.integrate(BLOCK, QUAKE).remark == ""
 
 
+def test_derivatives_are_named_and_refused():
+    block = ss.SlenderBlock(p=2, alpha=0.2, alpha_left=0.22, restitution=0.8)
+    motion = ss.GroundMotion(3 * np.sin(np.arange(60)), dt=0.1)
+    r = ss.integrate(block, motion)
+    by = {
+        name: r.sensitivity(name)
+        for name in ("p", "alpha", "alpha_right", "alpha_left", "restitution", "scale")
+    }
+    # theta is proportional to alpha and the ground acceleration together.
+    together = 0.2 * by["alpha_right"].peak + 0.22 * by["alpha_left"].peak + by["scale"].peak
+    assert together == pytest.approx(r.peak_rotation, rel=1e-10)
+    assert by["alpha"].rate == pytest.approx(by["alpha_right"].rate + by["alpha_left"].rate)
+    assert repr(by["p"]).startswith("<RockingSensitivity: peak ")
+    with pytest.raises(ValueError, match="parameter must be 'p', .*, got 'mu'"):
+        r.sensitivity("mu")
+    rigid = ss.integrate(ss.RockingBlock(width=0.5, height=2, mu=0.5), motion)
+    with pytest.raises(ValueError, match="of a RockingBlock take differences"):
+        rigid.sensitivity("scale")
+    strong = ss.GroundMotion(-5 * motion.acceleration, dt=0.1)
+    with pytest.raises(ValueError, match="has overturned"):
+        ss.integrate(block, strong).sensitivity("p")
+
+
 def test_accelerations_in_g_are_noticed():
     r = ss.integrate(BLOCK, ss.GroundMotion([0, 0.4, -0.4, 0], dt=0.1))
     assert 'give units="g"' in r.remark

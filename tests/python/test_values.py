@@ -343,6 +343,7 @@ EXAMPLES = {
     ss.RockingState: [ss.RockingState(), ss.RockingState(0.1), ss.RockingState(0, 0.1)],
     ss.RockingResponse: ROCKED,
     ss.RockingEnergy: [r.energy for r in ROCKED[:3]],
+    ss.RockingSensitivity: [ROCKED[0].sensitivity(name) for name in ("p", "alpha", "scale")],
     ss.RockingTable: [ss.sweep(block, EVEN) for block in (*ROCKS, *RIGID)],
     ss.RockingEnsemble: [ss.run_ensemble(ROCKS[0], EVEN, members=n, seed=1) for n in (1, 2)],
     ss.RockingSpectrum: [ss.rocking_spectrum(EVEN, alpha=a, periods=[2]) for a in (0.01, 0.02)],

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 
 #include "in_python.hpp"
@@ -10,6 +13,7 @@
 #include "sliding/units_remark.hpp"
 #include "statistics/estimate.hpp"
 #include "stickslip/rocking/integrate.hpp"
+#include "stickslip/rocking/sensitivity.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -127,6 +131,28 @@ std::string remark_of(const Self& self) {
          " g it does";
 }
 
+RockingSensitivity sensitivity_of(const Self& self, const std::string& name) {
+  static const std::map<std::string, RockingParameter> parameters{{"p", RockingParameter::p},
+                                                                  {"alpha", RockingParameter::alpha},
+                                                                  {"alpha_right", RockingParameter::alpha_right},
+                                                                  {"alpha_left", RockingParameter::alpha_left},
+                                                                  {"restitution", RockingParameter::restitution},
+                                                                  {"scale", RockingParameter::scale}};
+  const auto found = parameters.find(name);
+  if (found == parameters.end())
+    throw std::invalid_argument(
+        "RockingResponse.sensitivity: parameter must be 'p', 'alpha', 'alpha_right', 'alpha_left', 'restitution' or "
+        "'scale', got '" +
+        name + "'");
+  if (is_rigid(self))
+    throw std::invalid_argument(
+        "RockingResponse.sensitivity: covers a SlenderBlock; of a RockingBlock take differences of two responses");
+  const auto& block = self.block.cast<const SlenderBlock&>();
+  const GroundMotion& motion = motion_of(self);
+  const py::gil_scoped_release released;
+  return sensitivity(block, motion, self.response, found->second);
+}
+
 template <class Block>
 RockingResponse response_of(const Block& block, const py::object& motion, const RockingOptions& options,
                             const char* who) {
@@ -189,6 +215,19 @@ The integral of -p^2 (n + a_z (s alpha - theta))/g theta' dt, or of -(n X' + a_z
                (e.per_mass ? ", friction " + digits(e.energy.dissipated) : "") + ", impact " + digits(e.energy.impact) +
                ", fall " + digits(e.energy.damped) + ", kinetic " + digits(e.energy.kinetic) + ", potential " +
                digits(e.energy.elastic) + ">";
+      });
+
+  value_class<RockingSensitivity>(
+      m, "RockingSensitivity",
+      R"(Derivatives of the motion of a `SlenderBlock` with respect to a parameter, from `RockingResponse.sensitivity`.
+
+In rad, or rad/s, per unit of the parameter.)")
+      .def_readonly("peak", &RockingSensitivity::peak, "Derivative of the largest |theta|.")
+      .def_readonly("rotation", &RockingSensitivity::rotation, "Derivative of theta at the end; 0 if the block rests.")
+      .def_readonly("rate", &RockingSensitivity::rate, "Derivative of theta' at the end; 0 if the block rests.")
+      .def("__repr__", [](const RockingSensitivity& s) {
+        return "<RockingSensitivity: peak " + digits(s.peak) + ", rotation " + digits(s.rotation) + ", rate " +
+               digits(s.rate) + ">";
       });
 
   value_class<Self>(
@@ -293,6 +332,34 @@ tiny, the history hangs on round-off.)")
 From the exact derivative along the motion, up to an overturning: a relative error of 1e-16 of the input becomes
 1e-16 condition in theta/alpha. A rest resets it. NaN for a `RockingBlock`, whose derivatives are not computed: compare two
 scales.)")
+      .def("sensitivity", &sensitivity_of, py::arg("parameter"),
+           R"(Differentiate the peak, and theta and theta' at the end, with respect to a parameter.
+
+Solves the variational equation of each leg, with its jumps at impacts; not differences. With s the side, r the restitution,
+f = theta'' before and after an impact and theta' the rate before it:
+
+    leg     d(theta'') = p^2 d(theta) + 2 theta''/p dp - p^2 s d(alpha) - p^2 n/g d(scale)
+    impact  d(theta) = r d(theta),  d(theta') = r d(theta') - (r f- - f+) d(theta)/theta' + theta' dr
+    rest    0, and so at an uplift
+    peak    d|theta| = s d(theta) at its time
+
+Parameters
+----------
+parameter : str
+    ``'p'`` per rad/s, ``'alpha'`` of both sides or ``'alpha_right'`` or ``'alpha_left'`` per rad, ``'restitution'``, or
+    ``'scale'``, a factor of the ground acceleration, at 1.
+
+Returns
+-------
+RockingSensitivity
+    To 1e-9 of its size, times `condition`. At a graze, where theta' almost vanishes as theta does, it has no bound: see
+    `margin`.
+
+Raises
+------
+ValueError
+    A block that has overturned, vertical motion, a `RockingBlock`, or another parameter; take differences of two
+    responses.)")
       .def_property_readonly("remark", &remark_of,
                              R"(A sentence about limits of the result; empty if there are none (str).
 

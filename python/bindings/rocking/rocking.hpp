@@ -8,6 +8,7 @@
 #include "parts.hpp"
 #include "stickslip/rocking/response.hpp"
 #include "stickslip/rocking/rocking_block.hpp"
+#include "stickslip/rocking/sensitivity.hpp"
 #include "stickslip/rocking/slender_block.hpp"
 
 namespace stickslip::python {
@@ -28,6 +29,9 @@ inline constexpr auto parts<RockingState> = std::tuple(&RockingState::rotation, 
                                                        &RockingState::slip, &RockingState::displacement,
                                                        &RockingState::velocity, &RockingState::rise,
                                                        &RockingState::climb);
+template <>
+inline constexpr auto parts<RockingSensitivity> = std::tuple(&RockingSensitivity::peak, &RockingSensitivity::rotation,
+                                                             &RockingSensitivity::rate);
 template <>
 inline constexpr auto parts<RockingEvent> = std::tuple(&RockingEvent::time, &RockingEvent::rotation,
                                                        &RockingEvent::rate, &RockingEvent::kind,

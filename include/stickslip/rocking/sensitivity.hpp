@@ -1,0 +1,35 @@
+// Derivatives of the motion of a slender block with respect to a parameter.
+#pragma once
+
+#include "stickslip/ground/ground_motion.hpp"
+#include "stickslip/rocking/response.hpp"
+#include "stickslip/rocking/slender_block.hpp"
+
+namespace stickslip {
+
+/// What a motion of a SlenderBlock is differentiated by. `alpha` changes both sides alike; `scale` is a factor of the
+/// ground acceleration, at 1.
+enum class RockingParameter { p, alpha, alpha_right, alpha_left, restitution, scale };
+
+/// Derivatives per unit of the parameter.
+struct RockingSensitivity {
+  double peak = 0;      ///< of the largest |theta| [rad]
+  double rotation = 0;  ///< of theta at the end [rad]
+  double rate = 0;      ///< of theta' at the end [rad/s]
+
+  friend bool operator==(const RockingSensitivity&, const RockingSensitivity&) = default;
+};
+
+/// Differentiates the response of a block, from the variational equation of each leg, not by differences:
+///     d(theta'') = p^2 d(theta) + 2 theta''/p d(p) - p^2 s d(alpha) - p^2 n/g d(scale)
+///     impact:  d(theta) = r d(theta),  d(theta') = r d(theta') - (r f- - f+) d(theta)/theta' + theta' d(r)
+/// with f the acceleration before and after it, and theta' before it. It is zero at rest, and at an uplift.
+///
+/// To 1e-9 of its size, times the growth of errors (RockingResponse::condition). At a graze, where a rate almost vanishes
+/// as theta does, it has no bound. One pass over the motion.
+/// @param response  of `integrate` with the same block and motion
+/// @throws std::invalid_argument  a block that has overturned, vertical motion, or a response without samples
+RockingSensitivity sensitivity(const SlenderBlock& block, const GroundMotion& motion, const RockingResponse& response,
+                               RockingParameter parameter);
+
+}  // namespace stickslip

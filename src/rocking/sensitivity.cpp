@@ -1,0 +1,132 @@
+#include "stickslip/rocking/sensitivity.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+
+#include "rocking/leg.hpp"
+#include "rocking/run.hpp"
+#include "rocking/system.hpp"
+#include "stickslip/rocking/state.hpp"
+#include "stickslip/units.hpp"
+
+namespace stickslip {
+namespace detail {
+namespace {
+
+/// Follows a motion with its variation by one parameter.
+class Variation final : public RockingSink {
+ public:
+  Variation(const SlenderBlock& block, RockingParameter parameter, const RockingState& start)
+      : block_(block), square_(block.p() * block.p() / standard_gravity), parameter_(parameter) {
+    at_start_ = {start.rotation, start.rate};
+    highest_ = std::abs(start.rotation);
+  }
+
+  void begin_segment(const RockingSegment& ground) noexcept { ground_ = ground; }
+
+  void follow(const RockingLeg& leg, double begin, double duration, const RockingPlace& end) override {
+    begin_ = begin;
+    side_ = leg.side();
+    leg.for_each_turn(duration, end, [&](const RockingPlace& at, double t) { reach(at, vary(leg, t)); });
+    now_ = vary(leg, duration);
+    reach(end, now_);
+    at_start_ = end;
+    arrives_ = leg.acceleration(end.rotation, duration);
+  }
+
+  void event(EventKind kind, double time, const RockingState& state) override {
+    if (kind == EventKind::impact) {
+      const double leaves =
+          square_ *
+          (-standard_gravity * (state.rate > 0 ? block_.alpha_right() : -block_.alpha_left()) - ground_.n(time));
+      now_ = after_impact(now_, block_.restitution(), state.rate, arrives_, leaves);
+      if (parameter_ == RockingParameter::restitution) now_.rate += state.rate;
+      at_start_ = {0, block_.restitution() * state.rate};
+    } else if (kind != EventKind::end) {
+      now_ = {0, 0};
+      at_start_ = {state.rotation, state.rate};
+    }
+  }
+
+  RockingSensitivity found(const RockingState& end) const noexcept {
+    if (end.mode == RockingMode::rest) return {peak_, 0, 0};
+    return {peak_, now_.rotation, now_.rate};
+  }
+
+ private:
+  // The variation at a time of a leg, from that at its start.
+  RockingPlace vary(const RockingLeg& leg, double t) {
+    const double p = block_.p(), n0 = ground_.n(begin_);
+    const double n1 = ground_.duration > 0 ? (ground_.n_end - ground_.n_start) / ground_.duration : 0;
+    const HyperbolicSums sums(p, t);
+    // The force on it, constant and linear in time.
+    double force = 0, slope = 0;
+    switch (parameter_) {
+      case RockingParameter::scale:
+        force = -square_ * n0, slope = -square_ * n1;
+        break;
+      case RockingParameter::alpha:
+        force = -p * p * side_;
+        break;
+      case RockingParameter::alpha_right:
+        force = side_ > 0 ? -p * p : 0;
+        break;
+      case RockingParameter::alpha_left:
+        force = side_ < 0 ? p * p : 0;
+        break;
+      case RockingParameter::p:
+      case RockingParameter::restitution:
+        break;
+    }
+    RockingPlace place = HyperbolicMotion{now_, p * p * now_.rotation + force, -slope / (p * p), p}.at(sums);
+    if (parameter_ != RockingParameter::p) return place;
+    // Of 2 theta''/p, with theta'' = a cosh(pt) + b sinh(pt)/p: t (a sinh(pt) + b cosh(pt)/p)/p^2 - b sinh(pt)/p^4.
+    const double a = leg.acceleration(at_start_.rotation, 0), b = p * p * at_start_.rate - square_ * n1;
+    place.rotation += (a * t * sums.first + b / (p * p) * (t * sums.cosh - sums.first)) / p;
+    place.rate += (a * (sums.first + t * sums.cosh) + b * t * sums.first) / p;
+    return place;
+  }
+  void reach(const RockingPlace& place, const RockingPlace& variation) noexcept {
+    if (!(std::abs(place.rotation) > highest_)) return;
+    highest_ = std::abs(place.rotation);
+    peak_ = place.rotation > 0 ? variation.rotation : -variation.rotation;
+  }
+
+  const SlenderBlock& block_;
+  const double square_;  // p^2 / g
+  const RockingParameter parameter_;
+  RockingSegment ground_{};
+  double begin_ = 0, side_ = 1;
+  RockingPlace at_start_{};  // of the leg
+  RockingPlace now_{0, 0};   // the variation
+  double arrives_ = 0;       // theta'' at the end of the last leg
+  double highest_ = 0, peak_ = 0;
+};
+
+}  // namespace
+}  // namespace detail
+
+RockingSensitivity sensitivity(const SlenderBlock& block, const GroundMotion& motion, const RockingResponse& response,
+                               RockingParameter parameter) {
+  if (response.overturned != 0)
+    throw std::invalid_argument("sensitivity: the block has overturned; its rotation depends on no parameter");
+  if (motion.has_vertical())
+    throw std::invalid_argument(
+        "sensitivity: covers a slender block without vertical motion; take differences of two responses");
+  if (response.rotation.empty())
+    throw std::invalid_argument("sensitivity: needs a response of integrate, with its samples");
+  RockingState state = RockingState::at(response.rotation.front(), response.rate.front());
+  detail::Variation variation(block, parameter, state);
+  const auto go = [&](const detail::RockingSegment& ground) {
+    variation.begin_segment(ground);
+    detail::rock(block, ground, state, variation);
+  };
+  for (std::size_t i = 0; i < motion.segments(); ++i) go(detail::segment_of(motion, i));
+  // After it as far as the response goes, which is to rest.
+  const bool settled = response.events.back().time > motion.time(motion.segments());
+  while (settled && state.mode != RockingMode::rest) go(detail::calm_for(64 / block.p()));
+  return variation.found(state);
+}
+
+}  // namespace stickslip
