@@ -9,6 +9,7 @@
 
 #include <pybind11/stl.h>
 
+#include "in_python.hpp"
 #include "parts.hpp"
 
 namespace stickslip::python {
@@ -334,6 +335,41 @@ Returns
 -------
 float
     Friction force per unit mass [m/s^2].)")
+      .def("to_json", in_python("stickslip.slider_files", "to_json"),
+           R"(The arguments of the slider, its law and its stops as JSON; `from_json` reads it.
+
+Returns
+-------
+str
+
+Raises
+------
+ValueError
+    A law from functions, which numbers do not describe.)")
+      .def_static(
+          "from_json",
+          [](const py::object& source) {
+            return py::module_::import("stickslip.slider_files").attr("from_json")(source).cast<AnySlider>();
+          },
+          py::arg("source"),
+          R"(A slider from JSON, as the option --slider of the command reads it.
+
+Parameters
+----------
+source : str or path-like
+    A text that begins with '{', or a file: an object with `kind`, 'Slider', 'FrictionPendulum' or the name of a law, and the
+    arguments of that class by name. Laws and stops are such objects, too. "inf" is infinity.
+
+Returns
+-------
+Slider
+
+Raises
+------
+OSError
+    The file cannot be read.
+ValueError
+    No JSON, an unknown kind, a missing or unknown argument, or a value out of range; the message names the object.)")
       .def("__repr__",
            [](const AnySlider& self) {
              const Mounting& on = mounting_of(self);

@@ -289,8 +289,7 @@ AccelerationProblem::Trial AccelerationProblem::search(const Vector3& p, double 
 void AccelerationProblem::walk(const Vector3& p, double scale) {
   const std::size_t count = lines_.size();
   Vector3 a = p;
-  for (std::size_t j = 0; j < count; ++j)
-    modes_[j] = static_cast<std::int8_t>(lines_[j].rate(a, 1) < 0 ? -1 : 1);
+  for (std::size_t j = 0; j < count; ++j) modes_[j] = static_cast<std::int8_t>(lines_[j].rate(a, 1) < 0 ? -1 : 1);
   for (int steps = 0; steps < 200; ++steps) {
     Vector3 target = p;
     stuck_.clear();

@@ -295,7 +295,7 @@ def test_a_bad_option_is_named_on_stderr_with_code_2_before_any_file_is_read(
 
 
 @pytest.mark.parametrize(
-    "arguments", [[], ["slide"], ["slide", "a.csv"], ["slide", "a", "--mu", "x"]]
+    "arguments", [[], ["slide"], ["slide", "a.csv", "--mu"], ["slide", "a", "--mu", "x"]]
 )
 def test_arguments_that_do_not_parse_end_with_code_2(capsys, arguments):
     with pytest.raises(SystemExit) as end:

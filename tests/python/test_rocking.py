@@ -188,7 +188,7 @@ def test_derivatives_are_named_and_refused():
     assert together == pytest.approx(r.peak_rotation, rel=1e-10)
     assert by["alpha"].rate == pytest.approx(by["alpha_right"].rate + by["alpha_left"].rate)
     assert repr(by["p"]).startswith("<RockingSensitivity: peak ")
-    with pytest.raises(ValueError, match="parameter must be 'p', .*, got 'mu'"):
+    with pytest.raises(ValueError, match=r"parameter must be 'p', .*, got 'mu'"):
         r.sensitivity("mu")
     rigid = ss.integrate(ss.RockingBlock(width=0.5, height=2, mu=0.5), motion)
     with pytest.raises(ValueError, match="of a RockingBlock take differences"):

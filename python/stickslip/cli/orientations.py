@@ -12,7 +12,16 @@ from .options import SCALE, add_options
 from .output import column, complain
 from .reading import RECORDS, Records
 from .report import outputs
-from .slider import SLIDERS, cells, described, heads, keyed, slider_of, variations
+from .slider import (
+    SLIDERS,
+    cells,
+    described,
+    first_of,
+    heads,
+    keyed,
+    slider_of,
+    variations,
+)
 
 if TYPE_CHECKING:
     from ..sweeps import Orientations
@@ -52,7 +61,7 @@ def _orientations(args: argparse.Namespace) -> str:
     from ..sweeps import orientations  # imports NumPy, slowly
 
     cases, several = variations(args)
-    shown = list(dict.fromkeys(["mu", *several]))
+    shown = list(dict.fromkeys([first_of(args), *several]))
     sliders = [(case, slider_of(case)) for case in cases]
     if args.plot and len(sliders) > 1:
         raise ValueError(f"--plot draws one slider, got {len(sliders)}")

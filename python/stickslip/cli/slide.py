@@ -176,7 +176,11 @@ def _slide(args: argparse.Namespace) -> str:
                 report.save(_figure(responses), found)
     if args.units and remark and not slips:
         complain("warning: " + remark.replace('units="g"', "--units g"))
-    columns = (*_COLUMNS, *(_PLANAR_COLUMNS if args.planar else ()))
+    columns = (
+        *_COLUMNS,
+        *(["slider"] if args.slider else []),
+        *(_PLANAR_COLUMNS if args.planar else ()),
+    )
     return report.answer(columns, rows, _table(rows, several))
 
 
@@ -240,7 +244,22 @@ def _row(
         "liftoffs": _liftoffs(response),
         **_impacts(response),
         "at_rest": response.at_rest,
+        **(_in_file(args, slider) if args.slider else {}),
         **(_in_plane(response) if isinstance(response, PlanarResponse) else {}),
+    }
+
+
+def _in_file(args: argparse.Namespace, slider: Slider | PlanarSlider) -> dict[str, Any]:
+    """What the options are for the slider of a file."""
+    stops, spring = slider.stops, slider.natural_frequency > 0
+    return {
+        "slider": args.slider,
+        "law": type(slider.law).__name__,
+        "slope_degrees": slider.slope_degrees,
+        "period_s": slider.period if spring else None,
+        "damping_ratio": slider.damping_ratio if spring else None,
+        "stop_gap_m": stops and stops.gap,
+        "restitution": stops and stops.restitution,
     }
 
 
@@ -318,7 +337,8 @@ def _table(rows: list[dict[str, Any]], several: list[str]) -> Iterable[str]:
     names = [_name(row) for row in rows]
     # Options that were given once would be in no column, and nothing else would tell of them.
     given = {"mu_static": "mu_static", "stop_gap": "stop_gap_m", "restitution": "restitution"}
-    shown = ["mu", *(name for name, key in given.items() if rows[0][key] is not None)]
+    first = "slider" if "slider" in rows[0] else "mu"
+    shown = [first, *(name for name, key in given.items() if rows[0][key] is not None)]
     shown += [name for name in several if name not in shown]
     planar = "impacts" in rows[0]
     stops = rows[0]["impacts" if planar else "impacts_forward"] is not None

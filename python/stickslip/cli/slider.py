@@ -6,6 +6,7 @@ import argparse
 import itertools
 import math
 from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
 from typing import Any
 
 from .. import (
@@ -30,6 +31,7 @@ __all__ = [
     "cells",
     "check_planar",
     "described",
+    "first_of",
     "heads",
     "keyed",
     "slider_of",
@@ -39,6 +41,7 @@ __all__ = [
 # The options that may be ranges, with their headings in tables and names in legends, and their keys
 # in rows, where a name has its unit.
 _VARIED = {
+    "slider": ("slider", "slider"),
     "mu": ("mu", "mu"),
     "mu_static": ("static mu", "mu_static"),
     "reach": ("reach [m]", "reach_m"),
@@ -49,6 +52,21 @@ _VARIED = {
     "restitution": ("restitution", "restitution"),
     "scale": ("scale", "scale"),
 }
+
+
+class _File(str):
+    """A slider from a file, shown as its name."""
+
+    made: Slider
+
+    def __new__(cls, path: Path) -> _File:
+        found = super().__new__(cls, path.stem)
+        found.made = Slider.from_json(path)
+        return found
+
+    def __format__(self, spec: str) -> str:
+        width = spec.partition(".")[0]
+        return f"{self!s:>{width}}" if width.isdigit() else str(self)
 
 
 class _Surfaces(tuple[float, ...]):
@@ -112,8 +130,11 @@ SLIDER = _SLIDER.format(laws=_LAWS, number="number", ratio="ratio") + CONTACT
 # What `variations` reads, except --scale.
 SLIDERS = f"""
 [friction]
---mu ratios*... required
+--mu ratios*...
     coefficients of friction [-] or ranges; a repeated value is used once
+--slider file... FILE
+    instead of --mu and all else about friction and mounting: JSON files of sliders with any law, as
+    Slider.to_json writes them
 {_SLIDER.format(laws=f"{_LAWS}|pendulum", number="numbers", ratio="ratios").strip()}
 [friction]
 --radii number*... M
@@ -142,9 +163,22 @@ def check_planar(args: argparse.Namespace) -> None:
 
 def variations(args: argparse.Namespace) -> tuple[list[argparse.Namespace], list[str]]:
     """Every combination of the given values, and the options with several values."""
+    if args.slider:
+        _check_alone(args)
+        files = [_File(Path(path)) for path in dict.fromkeys(args.slider)]
+        scales = list(args.scale) if isinstance(args.scale, list | tuple) else [args.scale]
+        every = [
+            argparse.Namespace(**{**vars(args), "slider": one, "scale": scale})
+            for one, scale in itertools.product(files, scales)
+        ]
+        return every, ["slider", *(["scale"] if len(scales) > 1 else [])]
+    if not args.mu:
+        raise ValueError("give --mu, or --slider with a file")
+    args.slider = None
     given = {
         name: list(value) if isinstance(value, list | tuple) else [value]
         for name in _VARIED
+        if name != "slider"
         for value in [getattr(args, name)]
     }
     given["mu"] = (
@@ -155,6 +189,20 @@ def variations(args: argparse.Namespace) -> tuple[list[argparse.Namespace], list
         for values in itertools.product(*given.values())
     ]
     return every, [name for name, values in given.items() if len(values) > 1]
+
+
+def _check_alone(args: argparse.Namespace) -> None:
+    """Refuse what a file of a slider contains itself."""
+    for name in (*_VARIED, "radii", "capacities", "trail", "wheel_width"):
+        if name not in ("slider", "scale") and getattr(args, name, None) not in (None, []):
+            raise ValueError(f"--{name.replace('_', '-')} belongs into the file of --slider")
+    if args.law != "coulomb":
+        raise ValueError("--law belongs into the file of --slider")
+
+
+def first_of(args: argparse.Namespace) -> str:
+    """The option that names the sliders."""
+    return "slider" if args.slider else "mu"
 
 
 def keyed(args: argparse.Namespace, names: Iterable[str]) -> dict[str, Any]:
@@ -175,14 +223,14 @@ def cells(row: dict[str, Any], names: Iterable[str]) -> str:
 
 
 def _width(head: str) -> int:
-    return 5 if head == "mu" else max(11, len(head))
+    return {"mu": 5, "slider": 20}.get(head, max(11, len(head)))
 
 
 def described(args: argparse.Namespace, several: list[str], mu: str = "mu") -> Iterator[str]:
     """Labels such as "mu = 0.1", for mu and the other options that vary."""
-    yield f"{mu} = {args.mu:g}"
+    yield str(args.slider) if args.slider else f"{mu} = {args.mu:g}"
     for name in several:
-        if name != "mu":
+        if name != first_of(args):
             word, _, unit = _VARIED[name][0].partition(" [")
             yield f"{word} = {getattr(args, name):g}{f' {unit[:-1]}' if unit else ''}"
 
@@ -195,6 +243,8 @@ def any_slider_of(args: argparse.Namespace) -> Slider | PlanarSlider:
 
 def slider_of(args: argparse.Namespace) -> Slider:
     """The slider of the command line on one axis."""
+    if getattr(args, "slider", None):
+        return args.slider.made
     mu = args.mu
     if args.law != "pendulum":
         for option in ("radii", "capacities"):

@@ -20,6 +20,7 @@ from .slider import (
     cells,
     check_planar,
     described,
+    first_of,
     heads,
     keyed,
     variations,
@@ -71,7 +72,7 @@ def _sweep(args: argparse.Namespace) -> str:
     from ..sweeps.parameter_grid import Grid
 
     cases, several = variations(args)
-    shown = list(dict.fromkeys(["mu", *several]))
+    shown = list(dict.fromkeys([first_of(args), *several]))
     if args.planar:
         check_planar(args)
     parameters = {name: [getattr(case, name) for case in cases] for name in shown}
