@@ -248,8 +248,9 @@ Vector3 AccelerationProblem::slide_feet(const Vector3& target, const std::vector
 
 // The mode to which the barrier leads, and those about which it is not certain in every way.
 AccelerationProblem::Trial AccelerationProblem::search(const Vector3& p, double scale, const Vector3& guess) {
-  // x (L - |lambda|) is about the barrier parameter, and two powers of ten lie between both rates: of what sticks x falls with it, of what slides L - |lambda|.
   const std::size_t count = lines_.size();
+  // x (L - |lambda|) is about the barrier parameter, and two powers of ten lie between both rates: of what sticks x falls
+  // with it, of what slides L - |lambda|.
   certainty_.resize(count);
   for (std::size_t j = 0; j < count; ++j) {
     const double x = lines_[j].rate(scaled(1 / scale, guess), scale), before = rates_[j];
@@ -307,7 +308,7 @@ void AccelerationProblem::walk(const Vector3& p, double scale) {
     if (norm(way) > 1e-15 * scale) {
       // Where the slope along the way vanishes or changes its sign.
       double slope = -square, part = 0;
-      for (std::size_t passed = 0;; ++passed) {
+      for (;;) {
         double next = 2;
         std::size_t which = count;
         for (std::size_t j = 0; j < count; ++j) {

@@ -125,7 +125,7 @@ RockingSensitivity sensitivity(const SlenderBlock& block, const GroundMotion& mo
   for (std::size_t i = 0; i < motion.segments(); ++i) go(detail::segment_of(motion, i));
   // After it as far as the response goes, which is to rest.
   const bool settled = response.events.back().time > motion.time(motion.segments());
-  while (settled && state.mode != RockingMode::rest) go(detail::calm_for(64 / block.p()));
+  while (settled && state.mode != RockingMode::rest && state.overturned == 0) go(detail::calm_for(64 / block.p()));
   return variation.found(state);
 }
 

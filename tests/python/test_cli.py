@@ -1223,7 +1223,7 @@ def test_an_ensemble_that_is_refused_is_named_on_stderr_with_code_2(capsys, case
     "arguments",
     [
         ["--mu", "0.1"],
-        ["--event", "great near field"],
+        ["--event", "great near field", "--mu"],
         ["--event", "great near field", "--rate", "3", "--mu", "0.1"],
         ["--band", "1", "2", "--mu", "0.1"],
     ],

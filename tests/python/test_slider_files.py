@@ -96,11 +96,22 @@ def test_the_commands_slide_what_files_describe(pyslammer_files, capsys, tmp_pat
     assert [row["slider"] for row in swept] == ["bearing", "bearing", "stribeck", "stribeck"]
 
 
+def test_an_ensemble_of_what_a_file_describes(capsys, tmp_path):
+    slider, file = SLIDERS[0], tmp_path / "stribeck.json"
+    file.write_text(slider.to_json())
+    how = ["--event", "great very near field", "--members", 20, "--seed", 3, "--json"]
+    found = json.loads(run(["ensemble", "--slider", file, *how], capsys))
+    quake = ss.PoissonPulses.event("great very near field")
+    expected = ss.run_ensemble(slider, quake, members=20, seed=3)
+    assert found["peak_m"][0]["value"] == expected.quantile(0.5).value
+
+
 def test_a_file_excludes_the_options_that_it_contains(capsys, tmp_path):
     file = tmp_path / "slider.json"
     file.write_text(SLIDERS[1].to_json())
     for more in (["--mu", "0.1"], ["--period", "2"], ["--law", "caster"]):
         assert main(["slide", "sample:Kobe", "--slider", str(file), *more]) == 2
         assert f"{more[0]} belongs into the file of --slider" in capsys.readouterr().err
-    assert main(["slide", "sample:Kobe"]) == 2
-    assert "give --mu, or --slider with a file" in capsys.readouterr().err
+    for command in (["slide", "sample:Kobe"], ["ensemble", "--event", "great near field"]):
+        assert main(command) == 2
+        assert "give --mu, or --slider with a file" in capsys.readouterr().err

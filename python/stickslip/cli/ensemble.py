@@ -29,7 +29,7 @@ from .output import (
     json_text,
     reason_of,
 )
-from .slider import SLIDER, any_slider_of
+from .slider import SLIDER, any_slider_of, name_slider
 
 __all__ = ["add_ensemble"]
 
@@ -65,8 +65,11 @@ _MOTION = """
     factor on the transverse component (default 1; with --planar)
 --coherence ratio C
     correlation of the two components, from -1 to 1 (default 0; with --planar)
---mu ratio required
+--mu ratio
     coefficient of friction [-]
+--slider file FILE
+    instead of --mu and all else about friction and mounting: the JSON file of a slider with any
+    law, as Slider.to_json writes it
 """
 _RUN = """
 --members whole N = 10000
@@ -114,6 +117,7 @@ def _ensemble(args: argparse.Namespace) -> str:
     check_outputs((option, file) for option, file in files.items() if file)
     check_whole("--members", args.members, 2)  # for standard errors
     check_whole("--samples", args.samples, 1)
+    name_slider(args)
     gap = math.inf if args.stop_gap is None else args.stop_gap
     for level in args.level or ():
         check_not_negative("--level", level, "m")

@@ -34,6 +34,7 @@ __all__ = [
     "first_of",
     "heads",
     "keyed",
+    "name_slider",
     "slider_of",
     "variations",
 ]
@@ -52,6 +53,9 @@ _VARIED = {
     "restitution": ("restitution", "restitution"),
     "scale": ("scale", "scale"),
 }
+
+
+_NEITHER = "give --mu, or --slider with a file"
 
 
 class _File(str):
@@ -165,7 +169,7 @@ def variations(args: argparse.Namespace) -> tuple[list[argparse.Namespace], list
     """Every combination of the given values, and the options with several values."""
     if args.slider:
         _check_alone(args)
-        files = [_File(Path(path)) for path in dict.fromkeys(args.slider)]
+        files = [_File(path) for path in dict.fromkeys(args.slider)]
         scales = list(args.scale) if isinstance(args.scale, list | tuple) else [args.scale]
         every = [
             argparse.Namespace(**{**vars(args), "slider": one, "scale": scale})
@@ -173,7 +177,7 @@ def variations(args: argparse.Namespace) -> tuple[list[argparse.Namespace], list
         ]
         return every, ["slider", *(["scale"] if len(scales) > 1 else [])]
     if not args.mu:
-        raise ValueError("give --mu, or --slider with a file")
+        raise ValueError(_NEITHER)
     args.slider = None
     given = {
         name: list(value) if isinstance(value, list | tuple) else [value]
@@ -198,6 +202,17 @@ def _check_alone(args: argparse.Namespace) -> None:
             raise ValueError(f"--{name.replace('_', '-')} belongs into the file of --slider")
     if args.law != "coulomb":
         raise ValueError("--law belongs into the file of --slider")
+
+
+def name_slider(args: argparse.Namespace) -> None:
+    """Read the file of the one slider, if it comes from one; its stops are then those given."""
+    if args.slider:
+        _check_alone(args)
+        args.slider = _File(args.slider)
+        stops = args.slider.made.stops
+        args.stop_gap = stops.gap if stops and stops.gap == stops.backward else None
+    elif args.mu is None:
+        raise ValueError(_NEITHER)
 
 
 def first_of(args: argparse.Namespace) -> str:
