@@ -11,44 +11,28 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from ._core import (
-    Caster,
-    Coulomb,
-    Degrading,
     DoublePendulum,
+    FrictionLaw,
     FrictionPendulum,
-    KumarFriction,
-    MultiPendulum,
+    Law,
     QuintuplePendulum,
     Slider,
-    StaticKinetic,
     Stops,
-    Stribeck,
     TriplePendulum,
-    VelocityDependent,
 )
 
 T = TypeVar("T")
-_LAWS: dict[str, Callable[..., Any]] = {
+_KINDS: dict[str, Callable[..., Any]] = {
     made.__name__: made
     for made in (
-        Coulomb,
-        StaticKinetic,
-        Caster,
-        VelocityDependent,
-        Stribeck,
-        Degrading,
-        KumarFriction,
-        MultiPendulum,
+        Slider,
+        FrictionPendulum,
+        *(law for law in FrictionLaw.__subclasses__() if law is not Law),
         DoublePendulum,
         TriplePendulum,
         QuintuplePendulum,
+        Stops,
     )
-}
-_KINDS: dict[str, Callable[..., Any]] = {
-    "Slider": Slider,
-    "FrictionPendulum": FrictionPendulum,
-    **_LAWS,
-    "Stops": Stops,
 }
 # What the first argument is called where `repr` gives no name.
 _FIRST = {"Slider": "law", "StaticKinetic": "sliding"}

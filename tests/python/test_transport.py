@@ -109,6 +109,26 @@ def test_the_peak_is_that_of_simulation():
     )
 
 
+@pytest.mark.slow
+def test_a_quantile_of_the_peak_where_most_hardly_move_is_0():
+    weak = ss.Spectrum.kanai_tajimi(s0=0.4**2 / (2 * np.pi), frequency=1, damping=0.5)
+    peak = theory.Transport(tolerance=0.05).predict(BLOCK, weak, [20]).peak(20)
+    e = ss.run_ensemble(
+        BLOCK,
+        ss.GaussianExcitation(weak, dt=0.05, samples=401, period=1604, zero_frequency=True,
+                              random_amplitudes=True),
+        members=4000,
+        seed=5,
+    )  # fmt: skip
+    least = 1e-3 * math.sqrt(e.displacement_variance[-1])
+    # Here 0.53; false alarm: 4 standard errors.
+    assert np.mean(e.peak < least) > 0.5
+    low = peak.quantile(0.4)
+    assert low.value == 0
+    assert 0 < low.error < 3 * least
+    assert peak.quantile(0.98).value > least
+
+
 def test_the_velocity_is_that_of_simulation():
     # The errors as above; at rest the velocity is exactly 0.
     time, members = 20.0, 4000

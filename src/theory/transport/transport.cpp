@@ -404,6 +404,10 @@ Estimate TransportPeak::quantile(double probability, const Progress& progress) c
   };
   double low = std::log(rms), at_low = excess(low), high = low, at_high = at_low;
   while (at_low < 0 && std::exp(low) > 1e-3 * rms) high = low, at_high = at_low, at_low = excess(low -= 0.4);
+  if (at_low < 0) {  // so many hardly move that the quantile lies below all levels
+    const Estimate above = exceedance(std::exp(low), progress);
+    if (above.value + above.error < 1 - probability) return {0, std::exp(low)};
+  }
   while (at_high > 0 && std::exp(high) < 1e3 * rms) low = high, at_low = at_high, at_high = excess(high += 0.4);
   if (!(at_low > 0 && at_high < 0))
     throw ConvergenceError("TransportPeak: no level within a factor of 1000 of the rms displacement, " +
