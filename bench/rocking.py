@@ -1,9 +1,11 @@
-"""Blocks that rock: a history, a sweep, and the same by SciPy's integrator with events.
+"""Blocks that rock: a history, a sweep, the same by SciPy's integrator with events, and MuJoCo.
 
+    pip install scipy mujoco
     python bench/rocking.py [--check] [--rounds N]
 
 Answers are checked before they are timed: closed forms, the balance of energy, and SciPy's answer.
-Each run has another record. `--check` runs the checks alone.
+Each run has another record. `--check` runs the checks alone. MuJoCo rocks the rigid blocks of the
+referee, whose answers have 20 digits.
 """
 
 from __future__ import annotations
@@ -14,7 +16,10 @@ from itertools import cycle
 
 import numpy as np
 import stickslip as ss
-from measure import bar, machine, take_turns
+from measure import bar, machine, peer, take_turns
+from stickslip.referee import tools
+from stickslip.referee.adapters import mujoco_engine, own
+from stickslip.referee.problems import problems
 
 G = ss.STANDARD_GRAVITY
 BLOCK = ss.SlenderBlock(p=2, alpha=0.2, restitution=0.8)
@@ -104,6 +109,22 @@ def check() -> None:
     print(f"peak {r.peak_rotation_ratio:.6f} alpha, by SciPy {other:.6f}; {r.impacts} impacts")
 
 
+def against_mujoco() -> None:
+    """Errors over the largest displacement of a corner, and times over ours."""
+    print("rigid blocks by MuJoCo: error over the scale of the problem, time over ours")
+    for problem in problems():
+        if problem.kind != "rigid_block":
+            continue
+        ours = tools.run(own, problem, 0)
+        for cost, setting in enumerate(mujoco_engine.COSTS):
+            found = tools.run(mujoco_engine, problem, cost)
+            if "answers" not in found:
+                continue
+            ratio = found["seconds"] / ours["seconds"]
+            error = problem.error(found["answers"])
+            print(f"  {problem.id:18} {setting:48} {error:8.2g} {ratio:8.0f}")
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--rounds", type=int, default=5)
@@ -143,6 +164,10 @@ def main() -> None:
     print(bar("rigid, slipping, ns a sample", timings["rigid, slipping, ns a sample"].median, 1000))
     million = timings["sweep, ns a pair of 2,000 samples"].median * 1e-3
     print(bar("a million pairs of block and record of 2,000 samples, s", million, 60))
+    if peer("mujoco"):
+        against_mujoco()
+    else:
+        print("MuJoCo is not installed: not compared with it")
 
 
 if __name__ == "__main__":
