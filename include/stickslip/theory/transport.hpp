@@ -102,7 +102,7 @@ class TransportPeak {
   /// The level that max |x| does not exceed with a probability [m].
   /// @param probability  from 0.01 to 0.999
   /// @throws std::invalid_argument naming the value
-  /// @returns 0, with an error of a thousandth of the rms displacement, where so many sliders hardly move
+  /// @returns 0, with an error of a thousandth of the rms displacement, if more than this part hardly moves
   /// @throws ConvergenceError  no such level within a factor of 1000 of the rms displacement
   /// Takes 10 to 30 s: `exceedance`, at a level found with a coarse grid.
   Estimate quantile(double probability, const std::function<void()>& progress = {}) const;

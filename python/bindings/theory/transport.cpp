@@ -298,8 +298,8 @@ probability : float
 Returns
 -------
 Estimate
-    Level and its numerical error [m]. 0, with an error of a thousandth of the rms displacement, where so many sliders
-    hardly move.
+    Level and its numerical error [m]. 0, with an error of a thousandth of the rms displacement, if more than this part
+    hardly moves.
 
 Raises
 ------

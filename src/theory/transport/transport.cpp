@@ -404,7 +404,7 @@ Estimate TransportPeak::quantile(double probability, const Progress& progress) c
   };
   double low = std::log(rms), at_low = excess(low), high = low, at_high = at_low;
   while (at_low < 0 && std::exp(low) > 1e-3 * rms) high = low, at_high = at_low, at_low = excess(low -= 0.4);
-  if (at_low < 0) {  // so many hardly move that the quantile lies below all levels
+  if (at_low < 0) {  // more than this part hardly moves
     const Estimate above = exceedance(std::exp(low), progress);
     if (above.value + above.error < 1 - probability) return {0, std::exp(low)};
   }
