@@ -119,7 +119,7 @@ class RockingRecorder final : public RockingSink, public EventLog<double>, publi
     add(kind, time, state.rotation, state.rate);
     if (kind == EventKind::impact) {
       if (std::abs(state.rate) > count_from_) ++response_.impacts;
-      vary_by_impact(time, state);
+      variation_ = after_impact(block_, ground_, time, state, arrives_, variation_);
     } else {
       if (kind == EventKind::breakaway && equal(state.rotation, 0) && equal(state.rate, 0)) ++response_.uplifts;
       if (kind != EventKind::end) variation_ = {0, 0};
@@ -163,12 +163,6 @@ class RockingRecorder final : public RockingSink, public EventLog<double>, publi
     return *overturning_;
   }
   void reach(double rotation, double time) { detail::reach(response_, block_, rotation, time); }
-  void vary_by_impact(double time, const RockingState& state) {
-    const double r = block_.restitution();
-    const double other = state.rate > 0 ? block_.alpha_right() : -block_.alpha_left();  // it goes on with its rate
-    const double leaves = block_.p() * block_.p() / standard_gravity * (-ground_.heavy(time) * other - ground_.n(time));
-    variation_ = after_impact(variation_, r, state.rate, arrives_, leaves);
-  }
 
   const SlenderBlock& block_;
   const GroundMotion& motion_;

@@ -156,6 +156,7 @@ class RockingLeg {
   }
 
   double duration() const noexcept { return duration_; }
+  const Place& start() const noexcept { return start_; }
   double side() const noexcept { return tilt_ > 0 ? 1 : -1; }
 
   Place at(double t) const noexcept {

@@ -18,34 +18,26 @@ namespace {
 class Variation final : public RockingSink {
  public:
   Variation(const SlenderBlock& block, RockingParameter parameter, const RockingState& start)
-      : block_(block), square_(block.p() * block.p() / standard_gravity), parameter_(parameter) {
-    at_start_ = {start.rotation, start.rate};
-    highest_ = std::abs(start.rotation);
-  }
+      : block_(block),
+        square_(block.p() * block.p() / standard_gravity),
+        parameter_(parameter),
+        highest_(std::abs(start.rotation)) {}
 
   void begin_segment(const RockingSegment& ground) noexcept { ground_ = ground; }
 
   void follow(const RockingLeg& leg, double begin, double duration, const RockingPlace& end) override {
-    begin_ = begin;
-    side_ = leg.side();
-    leg.for_each_turn(duration, end, [&](const RockingPlace& at, double t) { reach(at, vary(leg, t)); });
-    now_ = vary(leg, duration);
+    leg.for_each_turn(duration, end, [&](const RockingPlace& at, double t) { reach(at, vary(leg, begin, t)); });
+    now_ = vary(leg, begin, duration);
     reach(end, now_);
-    at_start_ = end;
     arrives_ = leg.acceleration(end.rotation, duration);
   }
 
   void event(EventKind kind, double time, const RockingState& state) override {
     if (kind == EventKind::impact) {
-      const double leaves =
-          square_ *
-          (-standard_gravity * (state.rate > 0 ? block_.alpha_right() : -block_.alpha_left()) - ground_.n(time));
-      now_ = after_impact(now_, block_.restitution(), state.rate, arrives_, leaves);
+      now_ = after_impact(block_, ground_, time, state, arrives_, now_);
       if (parameter_ == RockingParameter::restitution) now_.rate += state.rate;
-      at_start_ = {0, block_.restitution() * state.rate};
     } else if (kind != EventKind::end) {
       now_ = {0, 0};
-      at_start_ = {state.rotation, state.rate};
     }
   }
 
@@ -55,9 +47,9 @@ class Variation final : public RockingSink {
   }
 
  private:
-  // The variation at a time of a leg, from that at its start.
-  RockingPlace vary(const RockingLeg& leg, double t) {
-    const double p = block_.p(), n0 = ground_.n(begin_);
+  // The variation at a time of a leg that begins at a time of the segment, from that at its start.
+  RockingPlace vary(const RockingLeg& leg, double begin, double t) const {
+    const double p = block_.p(), n0 = ground_.n(begin), side = leg.side();
     const double n1 = ground_.duration > 0 ? (ground_.n_end - ground_.n_start) / ground_.duration : 0;
     const HyperbolicSums sums(p, t);
     // The force on it, constant and linear in time.
@@ -67,13 +59,13 @@ class Variation final : public RockingSink {
         force = -square_ * n0, slope = -square_ * n1;
         break;
       case RockingParameter::alpha:
-        force = -p * p * side_;
+        force = -p * p * side;
         break;
       case RockingParameter::alpha_right:
-        force = side_ > 0 ? -p * p : 0;
+        force = side > 0 ? -p * p : 0;
         break;
       case RockingParameter::alpha_left:
-        force = side_ < 0 ? p * p : 0;
+        force = side < 0 ? p * p : 0;
         break;
       case RockingParameter::p:
       case RockingParameter::restitution:
@@ -82,7 +74,7 @@ class Variation final : public RockingSink {
     RockingPlace place = HyperbolicMotion{now_, p * p * now_.rotation + force, -slope / (p * p), p}.at(sums);
     if (parameter_ != RockingParameter::p) return place;
     // Of 2 theta''/p, with theta'' = a cosh(pt) + b sinh(pt)/p: t (a sinh(pt) + b cosh(pt)/p)/p^2 - b sinh(pt)/p^4.
-    const double a = leg.acceleration(at_start_.rotation, 0), b = p * p * at_start_.rate - square_ * n1;
+    const double a = leg.acceleration(leg.start().rotation, 0), b = p * p * leg.start().rate - square_ * n1;
     place.rotation += (a * t * sums.first + b / (p * p) * (t * sums.cosh - sums.first)) / p;
     place.rate += (a * (sums.first + t * sums.cosh) + b * t * sums.first) / p;
     return place;
@@ -97,11 +89,10 @@ class Variation final : public RockingSink {
   const double square_;  // p^2 / g
   const RockingParameter parameter_;
   RockingSegment ground_{};
-  double begin_ = 0, side_ = 1;
-  RockingPlace at_start_{};  // of the leg
-  RockingPlace now_{0, 0};   // the variation
-  double arrives_ = 0;       // theta'' at the end of the last leg
-  double highest_ = 0, peak_ = 0;
+  RockingPlace now_{0, 0};  // the variation
+  double arrives_ = 0;      // theta'' at the end of the last leg
+  double highest_;          // |theta| so far
+  double peak_ = 0;         // its derivative
 };
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "stickslip/run/response.hpp"
 #include "stickslip/sliding/detail/loop.hpp"
 #include "stickslip/sliding/detail/system.hpp"
+#include "stickslip/units.hpp"
 
 namespace stickslip::detail {
 
@@ -39,12 +40,17 @@ class RockingSink {
   LastSums sums_;
 };
 
-/// The variation of a motion with a parameter, after an impact at a time that varies.
-/// @param rate             theta' before it, which becomes r theta'
-/// @param arrives, leaves  theta'' before and after it
-inline RockingPlace after_impact(const RockingPlace& variation, double r, double rate, double arrives,
-                                 double leaves) noexcept {
-  return {r * variation.rotation, r * variation.rate - (r * arrives - leaves) * (variation.rotation / rate)};
+/// The variation of a motion with a parameter, after an impact whose time varies with it.
+/// @param time       of the impact, since the beginning of the segment [s]
+/// @param before     the state with the rate before it
+/// @param arrives    theta'' before it
+inline RockingPlace after_impact(const SlenderBlock& block, const RockingSegment& ground, double time,
+                                 const RockingState& before, double arrives, const RockingPlace& variation) noexcept {
+  const double r = block.restitution();
+  const double other = before.rate > 0 ? block.alpha_right() : -block.alpha_left();  // it goes on with its rate
+  const double leaves = block.p() * block.p() / standard_gravity * (-ground.heavy(time) * other - ground.n(time));
+  const double shift = variation.rotation / before.rate;
+  return {r * variation.rotation, r * variation.rate - (r * arrives - leaves) * shift};
 }
 
 /// The moment by which the ground lifts a block off a corner, over that of its weight G: positive uplifts.

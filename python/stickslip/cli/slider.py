@@ -58,7 +58,15 @@ _VARIED = {
 _NEITHER = "give --mu, or --slider with a file"
 
 
-class _File(str):
+class _Shown:
+    """What stands in a column of numbers, and is none."""
+
+    def __format__(self, spec: str) -> str:
+        width = spec.partition(".")[0]
+        return f"{self!s:>{width}}" if width.isdigit() else str(self)
+
+
+class _File(_Shown, str):
     """A slider from a file, shown as its name."""
 
     made: Slider
@@ -68,20 +76,12 @@ class _File(str):
         found.made = Slider.from_json(path)
         return found
 
-    def __format__(self, spec: str) -> str:
-        width = spec.partition(".")[0]
-        return f"{self!s:>{width}}" if width.isdigit() else str(self)
 
-
-class _Surfaces(tuple[float, ...]):
+class _Surfaces(_Shown, tuple[float, ...]):
     """The coefficients of the surfaces of one bearing, where other sliders have one."""
 
     def __str__(self) -> str:
         return "/".join(f"{mu:g}" for mu in self)
-
-    def __format__(self, spec: str) -> str:
-        width = spec.partition(".")[0]
-        return f"{self!s:>{width}}" if width.isdigit() else str(self)
 
 
 # The bearings by their number of radii.
@@ -258,7 +258,7 @@ def any_slider_of(args: argparse.Namespace) -> Slider | PlanarSlider:
 
 def slider_of(args: argparse.Namespace) -> Slider:
     """The slider of the command line on one axis."""
-    if getattr(args, "slider", None):
+    if args.slider:
         return args.slider.made
     mu = args.mu
     if args.law != "pendulum":
