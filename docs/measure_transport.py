@@ -249,6 +249,68 @@ def beside(
     return [*cells, f"{theory.cost.nodes:,}"], covered
 
 
+@dataclass(frozen=True)
+class Law:
+    """A setting and the time of the law of its displacement."""
+
+    setting: Setting
+    time: float
+
+    @property
+    def name(self) -> str:
+        s = self.setting
+        return (
+            f"{s.strength:.2g} | {level_name(s.backward)} | {spring_name(s.frequency)}"
+            f" | {self.time:.2g}"
+        )
+
+    def residuals(self, dt: float, members: int) -> np.ndarray:
+        ground = shaking(self.setting.spectrum(), dt, round(self.time / dt) + 1)
+        ensemble = ss.run_ensemble(
+            self.setting.slider, ground, members=members, seed=5, dt=self.time
+        )
+        return ensemble.residual
+
+
+LAWS_OF_X = [
+    Law(Setting(0.5, 0.5), 5),
+    Law(Setting(0.5, 0.4), 20),
+    Law(Setting(0.5, 1.5), 2),
+    Law(Setting(0.5, 1.0), 5),
+    Law(Setting(0.5, 1.0), 40),
+    Law(Setting(0.5, 1.0, backward=2), 15),
+    Law(Setting(0.5, 0.8, backward=math.inf), 10),
+    Law(Setting(0.5, 0.6, frequency=0.5), 15),
+    Law(Setting(0.5, 2, frequency=0.3), 15),
+    Law(Setting(0.5, 1, backward=math.inf, frequency=0.5), 10),
+]
+PARTS = [0.3, 0.1, 0.01, 1e-3, 1e-4]
+
+
+def law_row(law: Law, members: int) -> tuple[list[str], list[bool]]:
+    """The atom, and the probabilities of |x| beyond what parts of the simulated motions exceed."""
+    d = ss.theory.Transport().predict(law.setting.slider, law.setting.filter, [law.time])
+    d = d.displacement(law.time)
+    coarse, fine = (law.residuals(dt, members) for dt in (DT, DT / 4))
+    still = [float(np.mean(x == 0)) for x in (coarse, fine)]
+    scatter = math.sqrt((4 * still[1] * (1 - still[1]) + still[0] * (1 - still[0])) / members)
+    atom = 2 * still[1] - still[0]
+    cells = [law.name, f"{d.atom:.4f} ± {d.atom_error:.4f}", f"{max(atom, 0):.4f}"]
+    covered = [abs(d.atom - atom) <= d.atom_error + 3 * scatter + 0.02 * atom]
+    sizes = np.sort(np.abs(fine))
+    for part in PARTS:
+        level = float(sizes[-round(part * members) - 1])
+        if level == 0:
+            cells.append("")
+            continue
+        value = 1 - d.cdf(level) + d.cdf(-level)
+        error = d.error_at(level) + (0 if d.cdf(-level) == 0 else d.error_at(-level))
+        text, holds = ratio(value, error, part, math.sqrt(part * (1 - part) / members))
+        cells.append(text)
+        covered.append(holds)
+    return cells, covered
+
+
 def transition(gamma: float, guess: float) -> tuple[float, float]:
     """The time of z = 1, (3.50), and its error, from times around a guess."""
     cart = ss.Caster(slip_level=1.0, reach=1 / gamma)
@@ -407,6 +469,9 @@ SPEED_HEADING = (
     "| law | velocity variances within the stated error | median of error / stated |"
     " growth rates within | median |"
 )
+LAW_HEADING = (
+    "| rms / a | levels | wn / wg | wg t | atom | simulated | 30 % | 10 % | 1 % | 0.1 % | 0.01 % |"
+)
 CASTER_HEADING = "| gamma | z = 1 at | power of gamma from the line above | by (3.51) |"
 DRIFT_HEADING = "| rms / a | mean velocity, theory | simulation |"
 OTHER_HEADING = (
@@ -457,6 +522,7 @@ def main(members: int) -> None:
         table(WHITE_HEADING, shown(map(white_row, WHITE_TOLERANCES))),
         table(SPEED_HEADING, shown(map(speed_row, SPEED_LAWS))),
         table(HEADING, shown(row(setting, members)[0] for setting in TABLE)),
+        table(LAW_HEADING, shown(law_row(law, 20 * members)[0] for law in LAWS_OF_X)),
         coverage(COVERAGE, drawn, loosely, few),
         table(OTHER_HEADING, shown(others)),
         table(CASTER_HEADING, shown(caster_rows())),

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "numerics/fftw_plan.hpp"
+#include "numerics/monotone_cubic.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/numerics/root.hpp"
 
@@ -176,47 +177,53 @@ DisplacementDistribution::DisplacementDistribution(const detail::Slips& slips, s
   below_[nodes] = sum;
 }
 
-DisplacementDistribution::DisplacementDistribution(const detail::CharacteristicSamples& samples, double error,
-                                                   std::string remark)
-    : remark_(std::move(remark)), atom_(0), count_(std::numeric_limits<double>::infinity()), error_(error) {
-  const double width = samples.half_width;
-  step_ = 2 * width / static_cast<double>(nodes);
+DisplacementDistribution::DisplacementDistribution(detail::DisplacementTable table, std::string remark)
+    : remark_(std::move(remark)), atom_(table.atom), count_(-std::log(table.atom)), table_(std::move(table)) {
+  const std::vector<double>&x = table_.displacement, &below = table_.below;
+  step_ = (x.back() - x.front()) / static_cast<double>(nodes);
   displacement_.resize(nodes);
   density_.resize(nodes);
   below_.resize(nodes + 1);
-  // The last waves are damped: where the series ends, it would ripple over the whole window.
-  std::vector<std::complex<double>> values = samples.values;
-  for (std::size_t j = 0; j < values.size(); ++j)
-    values[j] *= std::exp(-30 * std::pow((static_cast<double>(j) + 0.5) / static_cast<double>(values.size()), 12));
-  double sum = 0, powers[5] = {};
-  for (std::size_t i = 0; i < nodes; ++i) {
-    const double y = -width + step_ * (static_cast<double>(i) + 0.5);
-    const std::complex<double> turn = std::polar(1.0, -std::numbers::pi / width * y);
-    std::complex<double> wave = std::polar(1.0, -std::numbers::pi / width * y / 2);
-    double density = 0;
-    for (const std::complex<double>& value : values) {
-      density += (value * wave).real();
-      wave *= turn;
+  // On either side of 0, where the density may be unbounded.
+  const auto rest = static_cast<std::size_t>(std::ranges::lower_bound(x, 0.0) - x.begin());
+  const auto lay = [&](std::size_t first, std::size_t last) {
+    if (first == last) return;
+    const std::span<const double> places(x), values(below);
+    const numerics::MonotoneCubic curve(places.subspan(first, last + 1 - first),
+                                        values.subspan(first, last + 1 - first));
+    for (std::size_t i = 0; i <= nodes; ++i) {
+      const double edge = x.front() + step_ * static_cast<double>(i);
+      if (edge >= x[first] && edge <= x[last]) below_[i] = curve(edge);
     }
-    displacement_[i] = samples.center + y;
-    density_[i] = std::max(density / width, 0.0);
-    below_[i] = sum;
-    sum += density_[i] * step_;
-    double power = density / width * step_;
-    for (double& one : powers) one += power, power *= y;
+  };
+  lay(0, rest);
+  lay(rest, x.size() - 1);
+  below_[nodes] = below.back();
+  double powers[5] = {};
+  for (std::size_t i = 0; i < nodes; ++i) {
+    displacement_[i] = x.front() + step_ * (static_cast<double>(i) + 0.5);
+    double power = below_[i + 1] - below_[i];
+    density_[i] = power / step_;
+    for (double& one : powers) one += power, power *= displacement_[i];
   }
-  below_[nodes] = sum;
-  // Exactly 1: round-off, and where the series, which ends, is negative.
-  for (double& mass : below_) mass /= sum;
-  for (double& density : density_) density /= sum;
-  const double total = powers[0];
-  for (double& one : powers) one /= total;
   const double mean = powers[1], variance = powers[2] - mean * mean;
-  cumulants_[0] = samples.center + mean;
+  cumulants_[0] = mean;
   cumulants_[1] = variance;
   cumulants_[2] = powers[3] - 3 * mean * powers[2] + 2 * mean * mean * mean;
   cumulants_[3] = powers[4] - 4 * mean * powers[3] + 6 * mean * mean * powers[2] - 3 * mean * mean * mean * mean -
                   3 * variance * variance;
+}
+
+double DisplacementDistribution::error() const noexcept {
+  return table_.error.empty() ? 0 : std::ranges::max(table_.error);
+}
+
+double DisplacementDistribution::error_at(double x) const {
+  require(!std::isnan(x), "DisplacementDistribution: x must be a number", x, "m");
+  if (table_.error.empty()) return 0;
+  const auto next = std::ranges::lower_bound(table_.displacement, x);
+  const auto i = static_cast<std::size_t>(std::min(next, table_.displacement.end() - 1) - table_.displacement.begin());
+  return std::max(table_.error[i], table_.error[i > 0 ? i - 1 : 0]);
 }
 
 double DisplacementDistribution::skewness() const noexcept {

@@ -1,13 +1,12 @@
 #include "stickslip/theory/velocity_distribution.hpp"
 
-#include <gsl/gsl_spline.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <new>
+#include <span>
 #include <utility>
 
+#include "numerics/monotone_cubic.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/numerics/root.hpp"
 
@@ -15,33 +14,25 @@ namespace stickslip::theory {
 
 using detail::require;
 
-/// Monotone cubics through the part of a table.
-struct VelocityDistribution::Spline {
-  Spline(const double* x, const double* y, std::size_t count)
-      : spline(gsl_spline_alloc(gsl_interp_steffen, count), &gsl_spline_free) {
-    if (!spline) throw std::bad_alloc();
-    gsl_spline_init(spline.get(), x, y, count);
-  }
-
-  std::unique_ptr<gsl_spline, decltype(&gsl_spline_free)> spline;
+struct VelocityDistribution::Spline : numerics::MonotoneCubic {
+  using MonotoneCubic::MonotoneCubic;
 };
 
 VelocityDistribution::VelocityDistribution(detail::VelocityTable table, double error, double atom_error,
                                            std::string remark)
     : table_(std::move(table)), error_(error), atom_error_(atom_error), remark_(std::move(remark)) {
   const auto& v = table_.velocity;
+  const std::span<const double> below = table_.below;
   const auto rest = static_cast<std::size_t>(std::ranges::lower_bound(v, 0.0) - v.begin());
-  if (rest > 1) backward_ = std::make_shared<const Spline>(v.data(), table_.below.data(), rest + 1);
-  if (v.size() - rest > 2)
-    forward_ = std::make_shared<const Spline>(v.data() + rest, table_.below.data() + rest, v.size() - rest);
+  if (rest > 1) backward_ = std::make_shared<const Spline>(std::span(v).first(rest + 1), below.first(rest + 1));
+  if (v.size() - rest > 2) forward_ = std::make_shared<const Spline>(std::span(v).subspan(rest), below.subspan(rest));
 }
 
 double VelocityDistribution::cdf(double v) const {
   require(!std::isnan(v), "VelocityDistribution: v must be a number", v, "m/s");
   const Spline* const side = (v < 0 ? backward_ : forward_).get();
   const double inside = std::clamp(v, table_.velocity.front(), table_.velocity.back());
-  const double below =
-      side == nullptr ? (v < 0 ? 0 : table_.below.back()) : gsl_spline_eval(side->spline.get(), inside, nullptr);
+  const double below = side == nullptr ? (v < 0 ? 0 : table_.below.back()) : (*side)(inside);
   return std::min(below + (v < 0 ? 0 : table_.atom), 1.0);
 }
 
@@ -49,7 +40,7 @@ double VelocityDistribution::density(double v) const {
   require(!std::isnan(v), "VelocityDistribution: v must be a number", v, "m/s");
   const Spline* const side = (v < 0 ? backward_ : forward_).get();
   if (side == nullptr || v < table_.velocity.front() || v > table_.velocity.back()) return 0;
-  return gsl_spline_eval_deriv(side->spline.get(), v, nullptr);
+  return side->slope(v);
 }
 
 double VelocityDistribution::quantile(double probability) const {

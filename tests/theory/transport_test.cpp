@@ -2,15 +2,19 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <vector>
 
+#include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/theory/white_noise.hpp"
 #include "theory/transport/chain.hpp"
 #include "theory/transport/load_grid.hpp"
 #include "theory/transport/panels.hpp"
+#include "theory/transport/spline_density.hpp"
 
 using namespace stickslip;
 using std::numbers::pi;
@@ -46,6 +50,68 @@ TEST_CASE("panels reproduce polynomials of their degree, and mirror each other")
   }
   CHECK(panels.at(5).first == 12);  // constant beyond the ends
   CHECK(panels.at(5).weights[4] == 1);
+}
+
+TEST_CASE("a law on panels is found from its means") {
+  // A point mass, and a cubic density, which is a spline: the means of the functions of nodes are exact.
+  const detail::Panels panels({-1, -0.4, -0.1, 0, 0.1, 0.3, 1}, 4);
+  const auto density = [](double x) { return 0.7 * (x < 0 ? 0.3 + 0.2 * x * x * x : 0.3 + 0.5 * x * (1 - x)); };
+  const double mass = 0.3;
+  Eigen::VectorXd means = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(panels.size()));
+  const auto add = [&](double x, double weight) {
+    const auto at = panels.at(x);
+    for (std::size_t k = 0; k <= panels.degree(); ++k)
+      means[static_cast<Eigen::Index>(at.first + k)] += weight * at.weights[k];
+  };
+  const std::vector<double>& edges = panels.edges();
+  for (std::size_t i = 1; i < edges.size(); ++i)
+    numerics::gauss_points<8>(edges[i - 1], edges[i], [&](double x, double weight) { add(x, weight * density(x)); });
+  add(0, mass);
+  const detail::SplineDensity law(panels, means, 0);
+  const auto exact = [&](double x) {
+    double sum = x >= 0 ? mass : 0;
+    numerics::gauss_points<8>(-1, std::min(x, 0.0), [&](double at, double weight) { sum += weight * density(at); });
+    if (x > 0) numerics::gauss_points<8>(0, x, [&](double at, double weight) { sum += weight * density(at); });
+    return sum;
+  };
+  const std::vector<double> points = {-2, -1, -0.7, -0.1, -0.03, 0, 0.05, 0.1, 0.6, 1, 3};
+  const std::vector<double> found = law.below(points);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    CHECK(found[i] == Approx(exact(std::clamp(points[i], -1.0, 1.0))).margin(1e-13));
+}
+
+TEST_CASE("a displacement of a block that hardly slips has an atom, and symmetric probabilities") {
+  const AnySlider block(Slider<Coulomb>(Coulomb(1.0)));
+  const auto d = Transport(0.1).displacement(block, kanai_tajimi(0.5, 0.5), 5);
+  CHECK(d.atom() > 0.4);
+  CHECK(d.atom() < 0.45);
+  CHECK(d.atom_error() < 0.002);
+  CHECK(d.quantile(0.5) == 0);
+  CHECK(d.cdf(0) - d.cdf(-1e-300) == Approx(d.atom()).margin(1e-6));
+  CHECK(d.cdf(1e9) == Approx(1).margin(1e-12));
+  CHECK(d.cdf(-1e9) == 0);
+  for (const double x : {0.02, 0.1, 0.5}) {
+    CHECK(1 - d.cdf(x) == Approx(d.cdf(-x)).epsilon(1e-3));
+    CHECK(d.error_at(x) > 0);
+    CHECK(d.error_at(x) <= d.error());
+  }
+  CHECK(d.error_at(1) < 0.1 * d.error());
+  CHECK_THROWS_WITH(d.error_at(std::nan("")), Catch::Contains("must be a number"));
+}
+
+TEST_CASE("the displacement of a block under strong white noise is nearly that of a free mass, a Gaussian") {
+  // Friction takes part of the velocity: sqrt(pi S0 t) >> a t. E[x^2] -> 2 pi S0 t^3 / 3.
+  const double s0 = 1000, t = 1;
+  const AnySlider block(Slider<Coulomb>(Coulomb(1.0)));
+  const auto d = Transport().displacement(block, theory::TwoStateNoise(s0), t);
+  const double sd = std::sqrt(d.variance());
+  CHECK(d.variance() ==
+        Approx(Transport().predict(block, theory::TwoStateNoise(s0), std::array{t}).displacement_variance.value[0])
+            .epsilon(2e-3));
+  CHECK(sd == Approx(std::sqrt(2 * pi * s0 / 3)).epsilon(0.03));
+  CHECK(d.atom() == 0);
+  for (const double z : {-3.0, -1.0, 0.0, 0.5, 2.0})
+    CHECK(d.cdf(z * sd) == Approx(std::erfc(-z / std::sqrt(2)) / 2).margin(2e-3));
 }
 
 TEST_CASE("panels whose functions may jump have two nodes at the edge") {

@@ -27,11 +27,12 @@ struct Slips {
   double least = 0, greatest = 0;  ///< bounds that x exceeds with a probability below 1e-13 each [m]
 };
 
-/// A characteristic function E[exp(i u (x - center))] at u = (j + 1/2) pi / half_width, j = 0, 1, ..., of a law that
-/// lies within half_width of the center and has a density.
-struct CharacteristicSamples {
-  double center = 0, half_width = 1;  ///< [m]
-  std::vector<std::complex<double>> values{};
+/// The distribution of a displacement at some of its values.
+struct DisplacementTable {
+  std::vector<double> displacement{};  ///< ascending, 0 among them [m]; it lies beyond the ends with no probability
+  std::vector<double> below{};         ///< the probability of at most each, without that of 0
+  std::vector<double> error{};         ///< of each
+  double atom = 0, atom_error = 0;     ///< the probability of 0
 };
 
 /// Slips of gamma-distributed lengths: in each direction the density is proportional to |d|^(k-1) exp(-|d| / theta),
@@ -54,8 +55,8 @@ namespace stickslip::theory {
 /// This is the program that the thesis outlines at the end of 5.3: moments, characteristic function, density. There
 /// is an atom at x = 0, the probability exp(-int nu) that nothing slips; the rest has a density. Made by
 /// `PulseSuperposition::distribution` from what single pulses do; `PulseChain::distribution` fits slips of
-/// gamma-distributed lengths to four cumulants and the atom. `TransportPrediction::displacement` has the characteristic
-/// function itself, of a law without an atom.
+/// gamma-distributed lengths to four cumulants and the atom. `TransportPrediction::displacement` carries the law itself,
+/// by values, with an error of each.
 ///
 /// Of slips the density is the Fourier transform of the characteristic function less the atom, by FFT over `nodes`
 /// points of a window beyond which x lies with a probability below 2e-13. The slips are laid on that grid with their
@@ -76,20 +77,24 @@ class DisplacementDistribution {
   /// @param remark  the remark of the theory
   explicit DisplacementDistribution(const detail::Slips& slips, std::string remark = {});
 
-  /// A law with a density, from its characteristic function by its Fourier series.
-  /// @param error  of its probabilities
-  DisplacementDistribution(const detail::CharacteristicSamples& samples, double error, std::string remark = {});
+  /// A law by a table, between whose values it is interpolated by monotone cubics (Steffen).
+  explicit DisplacementDistribution(detail::DisplacementTable table, std::string remark = {});
 
-  /// A bound on the numerical error of probabilities; 0 if they have only the errors stated above.
-  double error() const noexcept { return error_; }
+  /// A bound on the numerical error of all probabilities; 0 if they have only the errors stated above.
+  double error() const noexcept;
+
+  /// The same of `cdf(x)`, which is smaller in the tails.
+  /// @throws std::invalid_argument for NaN
+  double error_at(double x) const;
 
   /// What the theory says of parameters outside its range of validity; empty within it.
   const std::string& remark() const noexcept { return remark_; }
 
-  /// The probability that nothing slips, exp(-`slips()`): the probability of exactly x = 0.
+  /// The probability that nothing slips: the probability of exactly x = 0. And a bound on its numerical error.
   double atom() const noexcept { return atom_; }
+  double atom_error() const noexcept { return table_.atom_error; }
 
-  /// Expected number of slips; infinite for a law without an atom.
+  /// Expected number of slips, if they are independent, -ln(`atom()`): infinite for a law without an atom.
   double slips() const noexcept { return count_; }
 
   double mean() const noexcept { return cumulants_[0]; }      ///< [m]
@@ -122,7 +127,8 @@ class DisplacementDistribution {
   double smooth_cdf(double x) const;
 
   std::string remark_;
-  double atom_ = 1, count_ = 0, error_ = 0;
+  double atom_ = 1, count_ = 0;
+  detail::DisplacementTable table_{};  ///< empty of slips
   double cumulants_[4] = {};
   double step_ = 0;
   std::vector<double> displacement_{}, density_{};

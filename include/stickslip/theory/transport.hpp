@@ -212,14 +212,13 @@ class Transport {
   TransportStationary stationary(const AnySlider& slider, const TransportExcitation& excitation,
                                  const std::function<void()>& progress = {}) const;
 
-  /// The distribution of the displacement at a time, from its characteristic function, which is carried like the
-  /// moments: p <- T'(exp(i k X) p). Its `error` bounds the numerical error of probabilities.
+  /// The distribution of the displacement at a time, with x on a grid that becomes fine towards the start. The atom is
+  /// the probability that the slider has not slipped, of the excitation alone. `error_at` bounds the numerical error of
+  /// each probability: docs/transport.md compares it with simulation, down to probabilities of 1e-4.
   /// @param slider  as for `predict`
   /// @param excitation  as for `predict`
   /// @param time  [s], positive and finite
   /// @throws std::invalid_argument naming the value
-  /// @throws ConvergenceError  the characteristic function does not vanish at high wave numbers: many
-  ///                           displacements are close to 0
   /// Takes 1 to 20 s.
   DisplacementDistribution displacement(const AnySlider& slider, const TransportExcitation& excitation, double time,
                                         const std::function<void()>& progress = {}) const;

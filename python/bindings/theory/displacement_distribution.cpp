@@ -38,11 +38,13 @@ W. Feller, An Introduction to Probability Theory and Its Applications, vol. 2 (1
       .def_property_readonly("remark", &DisplacementDistribution::remark,
                              "Parameters outside the range of the theory and the errors to expect; empty within it.")
       .def_property_readonly("atom", &DisplacementDistribution::atom,
-                             "Probability of no slip, exp(-slips), that is, of exactly x = 0.")
+                             "Probability of no slip, that is, of exactly x = 0.")
+      .def_property_readonly("atom_error", &DisplacementDistribution::atom_error,
+                             "Bound on the numerical error of the atom; 0 of sums of slips.")
       .def_property_readonly("slips", &DisplacementDistribution::slips,
-                             "Expected number of slips; infinite for a law without an atom.")
+                             "Expected number of slips, if they are independent, -ln(atom); infinite without an atom.")
       .def_property_readonly("error", &DisplacementDistribution::error,
-                             "Bound on the numerical error of probabilities; 0 of sums of slips.")
+                             "Bound on the numerical error of all probabilities; 0 of sums of slips.")
       .def_property_readonly("mean", &DisplacementDistribution::mean, "Mean [m].")
       .def_property_readonly("variance", &DisplacementDistribution::variance, "Variance [m^2].")
       .def_property_readonly("skewness", &DisplacementDistribution::skewness, "Skewness; NaN if nothing ever slips.")
@@ -62,6 +64,24 @@ W. Feller, An Introduction to Probability Theory and Its Applications, vol. 2 (1
       .def("cdf", py::vectorize([](const DisplacementDistribution* self, double x) { return self->cdf(x); }),
            py::arg("x"),
            R"(Probability that the displacement is at most x.
+
+Parameters
+----------
+x : array_like
+    Displacements [m], any shape, no NaN.
+
+Returns
+-------
+float or ndarray
+    Of the shape of `x`.
+
+Raises
+------
+ValueError
+    NaN.)")
+      .def("error_at", py::vectorize([](const DisplacementDistribution* self, double x) { return self->error_at(x); }),
+           py::arg("x"),
+           R"(Bound on the numerical error of `cdf(x)`, which is smaller in the tails; 0 of sums of slips.
 
 Parameters
 ----------
@@ -116,10 +136,10 @@ Raises
 ValueError
     A value that is not finite.)")
       .def("__repr__", [](const DisplacementDistribution& d) {
-        const std::string slips = std::isfinite(d.slips()) ? detail::shortest(d.slips()) + " slips expected, atom " +
-                                                                 detail::shortest(d.atom())
-                                                           : "error of probabilities " + detail::shortest(d.error());
-        return "<DisplacementDistribution: " + slips + ", std " + detail::shortest(std::sqrt(d.variance())) + " m>";
+        const std::string of = d.error() > 0 ? "error of probabilities " + detail::shortest(d.error())
+                                             : detail::shortest(d.slips()) + " slips expected";
+        return "<DisplacementDistribution: " + of + ", atom " + detail::shortest(d.atom()) + ", std " +
+               detail::shortest(std::sqrt(d.variance())) + " m>";
       });
 }
 

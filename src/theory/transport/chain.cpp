@@ -1,4 +1,5 @@
 #include "theory/transport/chain.hpp"
+#include "theory/transport/spline_density.hpp"
 
 #include <algorithm>
 #include <array>
@@ -177,47 +178,27 @@ Chain::Vector Chain::carry(const Vector& q, const Vector& p, double drift, Parit
   return carry({{still, weight_}, {p, moving_}}, parity);
 }
 
-Chain::Complex Chain::carry(const Complex& p, const Turn& turn) const {
-  const Vector opposite = -p.im;
-  return {carry({{p.re, turn.cosine_}, {opposite, turn.sine_}}, Parity::even),
-          carry({{p.re, turn.sine_}, {p.im, turn.cosine_}}, Parity::odd)};
-}
-
-Chain::Turn::Turn(const Chain& chain, double wave) : cosine_(chain.weight_.size()), sine_(chain.weight_.size()) {
-  for (std::size_t row = 0; row < chain.rows(); ++row)
-    for (std::size_t l = chain.first_landing_[row]; l < chain.first_landing_[row + 1]; ++l) {
-      const Landing& to = chain.landings_[l];
-      const double even = std::cos(wave * to.to), odd = std::sin(wave * to.to);
-      chain.each_place(to, [&](std::size_t place, bool mirrored, double part) {
-        const auto begin = chain.place_.begin();
-        const auto first = static_cast<std::ptrdiff_t>(mirrored ? chain.first_mirrored_[row] : chain.first_entry_[row]);
-        const auto last =
-            static_cast<std::ptrdiff_t>(mirrored ? chain.first_entry_[row + 1] : chain.first_mirrored_[row]);
-        const auto at = static_cast<std::size_t>(
-            std::lower_bound(begin + first, begin + last, static_cast<std::uint32_t>(place)) - begin);
-        cosine_[at] += part * even;
-        sine_[at] += part * odd;
-      });
-    }
-}
-
 /// The probability of a row.
 double Chain::weight(std::size_t row, const Vector& p) const {
   return load_.weight(row % load_.loads(), p.data() + row / load_.loads() * load_.size());
 }
 
-std::complex<double> Chain::characteristic(const Complex& p, double wave) const {
-  std::complex<double> sum = 0;
+std::vector<double> Chain::below(const Vector& p, std::span<const double> points) const {
+  Vector means = Vector::Zero(index(x_.size()));  // of the functions of the nodes of x
   for (std::size_t row = 0; row < rows(); ++row) {
-    std::complex<double> one = 0;
-    const auto add = [&](const Landing& to) { one += to.weight * std::polar(1.0, wave * to.to); };
+    const double weight = this->weight(row, p);
+    const auto add = [&](const Landing& to) {
+      const Panels::Stencil in_x = x_.at(to.to);
+      for (std::size_t k = 0; k <= x_.degree(); ++k)
+        means[index(in_x.first + k)] += weight * to.weight * in_x.weights[k];
+    };
     if (load_.pulses())
       std::for_each_n(seen_.begin() + static_cast<std::ptrdiff_t>(row * views), views, add);
     else
       for (std::size_t l = first_landing_[row]; l < first_landing_[row + 1]; ++l) add(landings_[l]);
-    sum += std::complex(weight(row, p.re), weight(row, p.im)) * one;
   }
-  return mirrored() ? sum.real() : sum;
+  if (mirrored()) means = (means + means.reverse().eval()) / 2;
+  return SplineDensity(x_, means, 0).below(points);
 }
 
 Chain::Means Chain::sum(const std::vector<Means>& of_rows, const Vector& p) const {

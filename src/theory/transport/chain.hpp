@@ -3,11 +3,11 @@
 
 #include <Eigen/Dense>
 #include <array>
-#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -48,9 +48,13 @@ class Chain {
   bool mirrored() const noexcept { return motion_.mirrors(); }
   bool with_displacement() const noexcept { return x_.degree() > 0; }
 
+  const LoadGrid& load() const noexcept { return load_; }
   bool pulses() const noexcept { return load_.pulses(); }
   double step() const noexcept { return step_; }
   std::size_t size() const noexcept { return places() * load_.size(); }
+
+  /// The largest x of the grid [m].
+  double farthest() const noexcept { return x_.edges().back(); }
 
   /// The weights of the start: at rest at x = 0, under stationary noise.
   const Vector& start() const noexcept { return start_; }
@@ -62,14 +66,6 @@ class Chain {
   /// later.
   Vector carry(const Vector& q, const Vector& p, double drift, Parity parity) const;
 
-  /// The weights times exp(i wave X) a step later, of weights with the parts even (real) and odd (imaginary): if x is
-  /// not part of the state, the sum of weights is the characteristic function of the displacement.
-  class Turn;
-  struct Complex {
-    Vector re, im;
-  };
-  Complex carry(const Complex& p, const Turn& turn) const;
-
   /// At the end of a step that begins with the weights p.
   Means end(const Vector& p) const { return sum(ends_, p); }
 
@@ -77,9 +73,8 @@ class Chain {
   /// its duration.
   Means seen(const Vector& p) const { return sum(load_.pulses() ? seen_means_ : ends_, p); }
 
-  /// E[exp(i wave x)] of what is seen of such a step. If x is not part of the state, the weights are those times
-  /// exp(i wave x).
-  std::complex<double> characteristic(const Complex& p, double wave) const;
+  /// P(x <= a point) of what is seen of such a step, for each of some points, with x part of the state.
+  std::vector<double> below(const Vector& p, std::span<const double> points) const;
 
   /// P(velocity <= v) some steps later, and with `or_equal` false P(velocity < v); of the states that the weights
   /// represent, not of their mirror images. The last load is integrated over exactly: that of filtered noise a step
@@ -134,16 +129,6 @@ class Chain {
   std::vector<std::uint32_t> place_;
   std::vector<double> weight_, moving_;  // moving_: times the displacement, if it is not a state
   Vector start_;
-};
-
-/// The entries of a chain times cos(wave X) and sin(wave X).
-class Chain::Turn {
- public:
-  Turn(const Chain& chain, double wave);
-
- private:
-  friend class Chain;
-  std::vector<double> cosine_, sine_;
 };
 
 }  // namespace stickslip::detail

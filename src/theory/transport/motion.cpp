@@ -84,25 +84,28 @@ Vector weights_from_rest(const Chain& chain, std::size_t steps, const std::funct
   return p;
 }
 
-std::vector<std::complex<double>> characteristic(const Chain& chain, std::size_t steps, std::span<const double> waves,
-                                                 const std::function<void()>& progress) {
-  const Vector none = Vector::Zero(chain.start().size());
-  std::vector<std::complex<double>> found;
-  if (chain.with_displacement()) {
-    const Chain::Complex p{weights_from_rest(chain, steps - 1, progress), none};
-    for (const double wave : waves) found.push_back(chain.characteristic(p, wave));
-    return found;
+double chance_of_loads(const LoadGrid& load, double least, double most, std::size_t steps) {
+  // Of each load, the part of those for which it stands that are within.
+  std::vector<double> within;
+  for (std::size_t i = 0; i < load.loads(); ++i) {
+    double& part = within.emplace_back();
+    std::vector<double> cuts;
+    for (const double level : {least, most})
+      if (std::abs(level - load.load(i)) < load.reach(i)) cuts.push_back(level);
+    load.average(i, cuts, [&](double n, double weight) { part += n >= least && n <= most ? weight : 0; });
   }
-  for (const double wave : waves) {
-    const Chain::Turn turn(chain, wave);
-    Chain::Complex p{chain.start(), none};
-    for (std::size_t k = 0; k + 1 < steps; ++k) {
-      if (progress) progress();
-      p = chain.carry(p, turn);
+  Vector p = load.start();
+  std::vector<double> given(load.largest_share());
+  for (std::size_t k = 0; k < steps; ++k) {
+    Vector next = Vector::Zero(p.size());
+    for (std::size_t i = 0; i < load.loads(); ++i) {
+      const auto [first, count] = load.share(i);
+      load.give(i, p.data(), given.data());
+      for (std::size_t j = 0; j < count; ++j) next[static_cast<Eigen::Index>(first + j)] += within[i] * given[j];
     }
-    found.push_back(chain.characteristic(p, wave));
+    p = load.adjoint_step() ? Vector(*load.adjoint_step() * next) : next;
   }
-  return found;
+  return p.sum();
 }
 
 double stationary_velocity(const Chain& chain, const std::function<void()>& progress) {

@@ -1,10 +1,8 @@
 // Moments of a chain: by time from rest, and stationary.
 #pragma once
 
-#include <complex>
 #include <cstddef>
 #include <functional>
-#include <span>
 #include <vector>
 
 #include "theory/transport/chain.hpp"
@@ -23,9 +21,9 @@ std::vector<MotionMoments> history_from_rest(const Chain& chain, std::size_t ste
 /// The weights after some steps from rest. Their sum is the probability that no wall has been reached.
 Chain::Vector weights_from_rest(const Chain& chain, std::size_t steps, const std::function<void()>& progress);
 
-/// E[exp(i wave x)] after some steps from rest, at least one, for each wave.
-std::vector<std::complex<double>> characteristic(const Chain& chain, std::size_t steps, std::span<const double> waves,
-                                                 const std::function<void()>& progress);
+/// The probability that the loads of some steps from the start on lie between two values, at which functions of
+/// filtered noise may jump.
+double chance_of_loads(const LoadGrid& load, double least, double most, std::size_t steps);
 
 /// The stationary motion; if x is not part of the state, `xx` is the growth rate of the variance of x.
 struct StationaryMotion {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "stickslip/error.hpp"
+#include "theory/transport/motion.hpp"
 
 namespace stickslip::detail {
 namespace {
@@ -109,6 +110,40 @@ TransportProblem::Steps TransportProblem::steps_to(double time) const {
   return {fixed_step() ? step : time / count, static_cast<std::size_t>(count)};
 }
 
+Estimate TransportProblem::resting(double time) const {
+  if (white() && !(held_ > 0)) return {0, 0};
+  const double forward = motion_.hold(Direction::forward), backward = motion_.hold(Direction::backward);
+  if (fixed_step()) {
+    const auto after = [&](double slots) {
+      const double step = first_step() / slots;
+      const LoadGrid load = pulses_ ? batches(step, 1) : LoadGrid(std::sqrt(2 * pi * s0_ / held_));
+      return chance_of_loads(load, -forward, backward, static_cast<std::size_t>(std::ceil(time / step - 1e-9)));
+    };
+    const double once = after(1);
+    if (!pulses_) return {once, 0};
+    if (!can_halve_slots(true)) return {once, 0.1 * once};
+    const double change = after(2) - once;
+    return {std::clamp(once + 1.24 * change, 0.0, 1.0), std::abs(change)};
+  }
+  // Noise whose middles of steps stay within the levels, which are lowered as in `chain`.
+  const double lowering = 0.5826 * filtered_->roughness, farthest = 4.5 * filtered_->rms;
+  const double least = std::max(24.0, 4 * time / first_step());
+  const double count = std::ceil(std::max(least, time * std::pow(4 * lowering / motion_.least_hold(), 2)));
+  if (count > 20 * least) return {0, 0};  // it slips at once
+  const auto after = [&](double steps) {
+    const double step = time / steps, less = lowering * std::sqrt(step);
+    const double low = -std::min(forward - less, farthest), high = std::min(backward - less, farthest);
+    std::vector<double> edges, jumps;
+    if (low > -farthest) edges.push_back(low - farthest), jumps.push_back(low);
+    for (double i = 0; i <= 4; ++i) edges.push_back(low + (high - low) * i / 4);
+    if (high < farthest) edges.push_back(high + farthest), jumps.push_back(high);
+    const LoadGrid load(*filtered_, {edges, 6, jumps}, 13, step);
+    return chance_of_loads(load, low, high, static_cast<std::size_t>(steps));
+  };
+  const double once = after(count), twice = after(2 * count);
+  return {std::clamp(2 * twice - once, 0.0, 1.0), std::abs(twice - once)};
+}
+
 TransportProblem::Slip TransportProblem::strong_pulse(double reach) const {
   const double amplitude = (0.2 * reach + 2) * pulses_->arrivals.sigma * std::sqrt(1 + pulses_->arrivals.rate);
   const double speed = pulses_->half_width * amplitude, past = speed * pulses_->half_width / 2;
@@ -195,23 +230,26 @@ LoadGrid TransportProblem::batches(double step, std::size_t fineness) const {
 Chain TransportProblem::chain(double step, std::size_t fineness, const Window& window, double wall) const {
   constexpr std::size_t hiddens[] = {7, 9, 13, 17, 21};
   constexpr double speeds[] = {10, 12, 15, 19, 24}, displacements[] = {6.2, 7.2, 8.4, 9.6, 11};  // over their rms
-  const bool with_x = with_displacement() || std::isfinite(wall);
+  const bool with_x = with_displacement() || std::isfinite(wall) || window.graded;
   const std::size_t degree = 3 + fineness, hidden = hiddens[fineness] - (with_x ? 2 : 0);
   Panels x, v = velocities(step, degree, window.v, speeds[fineness]);
   if (with_x) {
     std::vector<double> edges{0};
     double end = displacements[fineness] * window.x;
     if (pulses_) end = std::max(end, strong_pulse(speeds[fineness]).displacement);
-    const double panels = static_cast<double>(pulses_ && fineness == 0 ? window.x_panels / 5 * 3 : window.x_panels);
+    const double panels = pulses_ && fineness == 0 ? 3 : 5;
     std::vector<double> parts;
     if (std::isfinite(wall))
       parts = {0.2, 0.4, 0.6, 0.75, 0.87, 0.95, 1.0};
+    else if (window.graded)
+      parts = {0.002, 0.005, 0.0095, 0.016, 0.026, 0.042, 0.064, 0.1, 0.15,
+               0.23,  0.33,  0.44,   0.55,  0.66,  0.77,  0.88,  1};
     else
-      for (double i = 1; i <= panels / 2; ++i) parts.push_back(2 * i / panels);
+      for (double i = 1; i <= panels; ++i) parts.push_back(i / panels);
     for (const double part : parts) {
       const double edge = part * (std::isfinite(wall) ? wall : end);
       edges.push_back(edge);
-      edges.insert(edges.begin(), -edge);
+      if (!(window.graded && one_way())) edges.insert(edges.begin(), -edge);
     }
     x = {split(edges, motion_.reach()), degree};
   }

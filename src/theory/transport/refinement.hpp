@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "stickslip/sliding/any_slider.hpp"
+#include "stickslip/statistics/tally.hpp"
 #include "stickslip/theory/transport.hpp"
 #include "theory/transport/chain.hpp"
 #include "theory/transport/held_motion.hpp"
@@ -46,13 +47,16 @@ class TransportProblem {
   bool white() const noexcept { return s0_ > 0; }
   bool pulses() const noexcept { return pulses_.has_value(); }
 
+  /// The probability that a slider at rest has not slipped by a time [s].
+  Estimate resting(double time) const;
+
   /// A step with which errors are some percent [s].
   double first_step() const noexcept;
 
   /// The window of a grid.
   struct Window {
-    double x = 0, v = 0;        ///< rms, estimated
-    std::size_t x_panels = 10;  ///< even
+    double x = 0, v = 0;  ///< rms, estimated
+    bool graded = false;  ///< panels in x become narrow towards the start, for the law of x
   };
   Window first_window() const noexcept;
   /// Of a mass without friction that starts at rest, under white noise.

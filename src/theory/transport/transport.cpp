@@ -4,7 +4,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <complex>
 #include <limits>
 #include <numbers>
 #include <span>
@@ -65,17 +64,6 @@ Value at_time(const Chain& chain, double time, Value at_start, const OfSteps& of
 double exceeded(const Chain& chain, double time, const Progress& progress) {
   return at_time(chain, time, 0.0,
                  [&](std::size_t steps) { return 1 - weights_from_rest(chain, steps, progress).sum(); });
-}
-
-std::vector<std::complex<double>> characteristic(const Chain& chain, double time, std::span<const double> waves,
-                                                 const Progress& progress) {
-  using Values = Eigen::VectorXcd;
-  const Values found = at_time<Values>(
-      chain, time, Values::Ones(static_cast<Eigen::Index>(waves.size())), [&](std::size_t steps) -> Values {
-        const auto values = detail::characteristic(chain, steps, waves, progress);
-        return Eigen::Map<const Values>(values.data(), static_cast<Eigen::Index>(values.size()));
-      });
-  return {found.begin(), found.end()};
 }
 
 constexpr double MotionMoments::*all[] = {&MotionMoments::x, &MotionMoments::xx, &MotionMoments::xv, &MotionMoments::v,
@@ -424,51 +412,69 @@ DisplacementDistribution Transport::displacement(const AnySlider& slider, const 
   check(slider, excitation);
   require(time > 0 && std::isfinite(time), "Transport: time must be positive and finite", time, "s");
   const TransportProblem problem(slider, excitation);
-  const auto [step, steps] = problem.steps_to(time);
-  const bool at_once = problem.with_displacement();
-  auto window = window_from_rest(problem, step, steps, progress);
-  // With a spring the grid resolves waves that turn by up to 2.5 rad over a panel, of some 0.4 rms.
-  window.x_panels = 36;
-  const Chain coarse = problem.chain(step, 0, window);
-  const MotionMoments last = history_from_rest(coarse, steps, progress).back();
-  // The window: one that held less would fold the tails back.
-  detail::CharacteristicSamples samples{last.x, 10 * std::sqrt(last.xx), {}};
-  const std::size_t most = at_once ? 20 : 60;
-  constexpr double vanishing = 1e-5;
-  std::vector<double> waves;
-  double size = 1;
-  while (waves.size() < most && size > vanishing) {
-    // With the displacement on the grid one run gives all waves; else each wave is a run.
-    const std::size_t first = waves.size();
-    do waves.push_back((static_cast<double>(waves.size()) + 0.5) * std::numbers::pi / samples.half_width);
-    while (at_once && waves.size() < most);
-    const auto values = characteristic(coarse, time, std::span(waves).subspan(first), progress);
-    const auto last_wave = std::ranges::find_if(values, [](auto value) { return std::abs(value) <= vanishing; });
-    size = std::abs(last_wave == values.end() ? values.back() : *last_wave);
-    if (last_wave != values.end()) waves.resize(first + static_cast<std::size_t>(last_wave - values.begin()) + 1);
+  const auto [longest, steps] = problem.steps_to(time);
+  auto window = window_from_rest(problem, longest, steps, progress);
+  const Estimate resting = problem.resting(time);
+  const MotionMoments last = history_from_rest(problem.chain(longest, 0, window), steps, progress).back();
+  // Where slips are rare, single ones shape the law: their steps are shorter.
+  const double step = resting.value > 0.01 && !problem.pulses() && !(problem.held() > 0) ? longest / 2 : longest;
+  // The rms of those that have slipped, and wider until hardly any lies beyond.
+  window.graded = true;
+  window.x = std::sqrt((last.xx + last.x * last.x) / std::max(1 - resting.value, 1e-3));
+  constexpr double beyond = 2e-5;
+  const auto law = [&](const Chain& chain, std::span<const double> points) -> Figures {
+    return at_time<Figures>(chain, time, Figures::Zero(static_cast<Eigen::Index>(points.size())),
+                            [&](std::size_t count) -> Figures {
+                              const auto below = chain.below(weights_from_rest(chain, count - 1, progress), points);
+                              return Eigen::Map<const Figures>(below.data(), static_cast<Eigen::Index>(below.size()));
+                            });
+  };
+  const bool both = !problem.one_way();
+  for (int wider = 0; wider < 5; ++wider) {
+    const Chain coarse = problem.chain(step, 0, window);
+    const double end = 0.9 * coarse.farthest();
+    const Figures found = law(coarse, std::array{-end, end});
+    if (std::abs(1 - found[1]) + std::abs(found[0]) < beyond) break;
+    window.x *= 1.4;
   }
-  if (size > 0.05)
-    throw ConvergenceError("Transport: the characteristic function of the displacement at " + detail::shortest(time) +
-                           " s must vanish at high wave numbers, is " + detail::shortest(size) + " at " +
-                           detail::shortest(waves.back()) + " 1/m: many displacements are close to 0");
+  // The probabilities of at most each of some values below 0, and of more than each of some above it: so that errors in
+  // the tails are small.
+  constexpr std::size_t count = 40;
+  const double end = problem.chain(step, 0, window).farthest();
+  std::vector<double> points;
+  for (std::size_t i = count; both && i > 0; --i)
+    points.push_back(-end * std::pow(static_cast<double>(i) / count, 2.5));
+  const std::size_t before = points.size();
+  for (std::size_t i = 1; i <= count; ++i) points.push_back(end * std::pow(static_cast<double>(i) / count, 2.5));
   const Refined refined =
       refine(problem, window, step, {.tolerance = tolerance_, .judged = {}, .levels = 1}, [&](const Chain& chain) {
-        const auto values = characteristic(chain, time, waves, progress);
-        Figures figures(2 * static_cast<Eigen::Index>(values.size()));
-        for (Eigen::Index j = 0; j < figures.size(); j += 2) {
-          figures[j] = values[static_cast<std::size_t>(j / 2)].real();
-          figures[j + 1] = values[static_cast<std::size_t>(j / 2)].imag();
-        }
-        return figures;
+        Figures found = law(chain, points);
+        const Eigen::Index above = found.size() - static_cast<Eigen::Index>(before);
+        found.tail(above) = 1 - found.tail(above).array();
+        return found;
       });
-  double error = size;
-  for (std::size_t j = 0; j < waves.size(); ++j) {
-    const auto at = static_cast<Eigen::Index>(2 * j);
-    samples.values.push_back(std::complex<double>(refined.value[at], refined.value[at + 1]) *
-                             std::polar(1.0, -waves[j] * samples.center));
-    error += 2 * std::hypot(refined.whole_error(at), refined.whole_error(at + 1)) / (waves[j] * samples.half_width);
+  detail::DisplacementTable table{.atom = resting.value, .atom_error = resting.error};
+  const auto add = [&](double x, double below, double error) {
+    const double least = table.below.empty() ? 0 : table.below.back();
+    table.displacement.push_back(x);
+    table.below.push_back(std::clamp(below, least, 1 - resting.value));  // within the errors
+    table.error.push_back(error);
+  };
+  const auto error = [&](std::size_t i) { return refined.whole_error(static_cast<Eigen::Index>(i)); };
+  const auto found = [&](std::size_t i) { return refined.value[static_cast<Eigen::Index>(i)]; };
+  for (std::size_t i = 0; i < before; ++i) add(points[i], found(i), error(i));
+  const double first = 1 - found(before) - resting.value;
+  add(0, both ? (table.below.back() + first) / 2 : 0, std::max(resting.error, error(before)));
+  for (std::size_t i = before; i < points.size(); ++i) add(points[i], 1 - found(i) - resting.value, error(i));
+  table.below.front() = 0;
+  table.below.back() = 1 - resting.value;
+  // Within the two narrowest panels the law is only known to lie between its values at 0 and at their end.
+  constexpr std::size_t unresolved = 4;
+  for (std::size_t k = 1; k <= unresolved; ++k) {
+    if (both) table.error[before - k] += table.below[before] - table.below[before - unresolved - 1];
+    table.error[before + k] += table.below[before + unresolved + 1] - table.below[before];
   }
-  return {samples, error, remark_of(excitation)};
+  return DisplacementDistribution(std::move(table), remark_of(excitation));
 }
 
 VelocityDistribution Transport::velocity(const AnySlider& slider, const TransportExcitation& excitation, double time,
