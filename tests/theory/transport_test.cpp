@@ -206,7 +206,10 @@ TEST_CASE("a prediction under pulses scales with the units, and a soft spring le
           soft.displacement_variance.error[k] + one.displacement_variance.error[k]);
   }
   CHECK_THAT(one.remark, Catch::Contains("lattice of times"));
-  CHECK_THROWS_WITH(one.velocity(4), Catch::Contains("under noise, not under pulses"));
+  const auto v = one.velocity(9.5), scaled_v = other.velocity(9.5 / 4);
+  CHECK(scaled_v.atom() == Approx(v.atom()).epsilon(1e-9));
+  CHECK(scaled_v.cdf(0.3 * 0.5 / 4) == Approx(v.cdf(0.3)).epsilon(1e-9));
+  CHECK(v.cdf(-0.3) == Approx(1 - v.cdf(0.3)).margin(1e-9));
 }
 
 TEST_CASE("probability is conserved over hundreds of steps") {

@@ -226,7 +226,7 @@ class Transport {
   /// The distribution of the velocity at a time, with the probability of rest: of each value the probability that the
   /// load of the last step leads below it, integrated over that load exactly.
   /// @param slider  as for `predict`
-  /// @param excitation  noise, as for `predict`
+  /// @param excitation  as for `predict`
   /// @param time    [s], positive and finite
   /// @throws std::invalid_argument naming the value
   /// Takes 1 to 20 s.

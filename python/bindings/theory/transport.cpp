@@ -350,6 +350,7 @@ Takes 1 to 10 s without a spring, up to 60 s with one.)")
            R"(Distribution of the velocity at a time, with the probability of rest.
 
 Of each velocity the probability that the load of the last step leads below it, integrated over that load exactly.
+Under pulses it is the law of a random phase of the lattice on which they begin, as that of the displacement.
 
 Parameters
 ----------
@@ -363,7 +364,7 @@ VelocityDistribution
 Raises
 ------
 ValueError
-    A time out of range; pulses.
+    A time out of range.
 
 Notes
 -----

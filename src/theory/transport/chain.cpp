@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "lanes/matrix_product.hpp"
@@ -199,6 +200,35 @@ std::vector<double> Chain::below(const Vector& p, std::span<const double> points
   }
   if (mirrored()) means = (means + means.reverse().eval()) / 2;
   return SplineDensity(x_, means, 0).below(points);
+}
+
+Chain::Speeds Chain::speeds(const Vector& p, std::span<const double> sizes) const {
+  const std::vector<double>& edges = v_.edges();
+  const auto rest = std::ranges::lower_bound(edges, 0.0);
+  std::vector<double> of_backward(std::make_reverse_iterator(rest + 1), edges.rend());
+  for (double& edge : of_backward) edge = -edge;
+  const Panels forward({rest, edges.end()}, v_.degree());
+  const Panels backward = rest == edges.begin() ? forward : Panels(of_backward, v_.degree());
+  Vector ahead = Vector::Zero(index(forward.size())), back = Vector::Zero(index(backward.size()));
+  Speeds found;
+  for (std::size_t row = 0; row < rows(); ++row) {
+    const double weight = this->weight(row, p);
+    std::for_each_n(seen_.begin() + static_cast<std::ptrdiff_t>(row * views), views, [&](const Landing& to) {
+      const double part = weight * to.weight;
+      if (equal(to.speed, 0)) {
+        found.rest += part;
+        return;
+      }
+      const bool turned = to.speed < 0 && !mirrored();
+      const Panels::Stencil in_v = (turned ? backward : forward).at(std::abs(to.speed));
+      for (std::size_t k = 0; k <= v_.degree(); ++k) (turned ? back : ahead)[index(in_v.first + k)] += part * in_v.weights[k];
+    });
+  }
+  if (mirrored()) back = ahead = ahead / 2;
+  found.backward = back.sum();
+  found.forward_to = SplineDensity(forward, ahead, 0).below(sizes);
+  found.backward_to = SplineDensity(backward, back, 0).below(sizes);
+  return found;
 }
 
 Chain::Means Chain::sum(const std::vector<Means>& of_rows, const Vector& p) const {

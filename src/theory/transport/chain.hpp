@@ -76,6 +76,13 @@ class Chain {
   /// P(x <= a point) of what is seen of such a step, for each of some points, with x part of the state.
   std::vector<double> below(const Vector& p, std::span<const double> points) const;
 
+  /// Probabilities of the velocity of what is seen of such a step under pulses.
+  struct Speeds {
+    double rest = 0, backward = 0;           ///< of v = 0 and v < 0
+    std::vector<double> forward_to{}, backward_to{};  ///< of 0 < v <= each of some speeds, and of -speed <= v < 0
+  };
+  Speeds speeds(const Vector& p, std::span<const double> sizes) const;
+
   /// P(velocity <= v) some steps later, and with `or_equal` false P(velocity < v); of the states that the weights
   /// represent, not of their mirror images. The last load is integrated over exactly: that of filtered noise a step
   /// after the load that is part of the state, that of white noise at once.

@@ -241,6 +241,8 @@ Chain TransportProblem::chain(double step, std::size_t fineness, const Window& w
     std::vector<double> parts;
     if (std::isfinite(wall))
       parts = {0.2, 0.4, 0.6, 0.75, 0.87, 0.95, 1.0};
+    else if (window.graded && pulses_)  // whose errors are larger, and whose states are many
+      parts = {0.005, 0.016, 0.042, 0.1, 0.23, 0.44, 0.7, 1};
     else if (window.graded)
       parts = {0.002, 0.005, 0.0095, 0.016, 0.026, 0.042, 0.064, 0.1, 0.15,
                0.23,  0.33,  0.44,   0.55,  0.66,  0.77,  0.88,  1};
@@ -311,8 +313,10 @@ Refined refine_pulses(const TransportProblem& problem, const TransportProblem::W
   result.lattice = Figures::Zero(change.size());
   for (Eigen::Index i = 0; i < change.size(); ++i) {
     const double scale = std::abs(coarse[i]) > 0 ? std::clamp(result.value[i] / coarse[i], 0.5, 2.0) : 1;
-    result.value[i] += whole * scale * change[i];
-    result.lattice[i] = uncertain * scale * std::abs(change[i]) + least * std::abs(result.value[i]);
+    // Probabilities of rest and of slow motion change in no such order.
+    const bool slow = std::ranges::find(accuracy.slow, i) != accuracy.slow.end();
+    result.value[i] += (slow ? 1 : whole) * scale * change[i];
+    result.lattice[i] = (slow ? 1 : uncertain) * scale * std::abs(change[i]) + least * std::abs(result.value[i]);
   }
   return result;
 }

@@ -482,10 +482,8 @@ VelocityDistribution Transport::velocity(const AnySlider& slider, const Transpor
   check(slider, excitation);
   require(time > 0 && std::isfinite(time), "Transport: time must be positive and finite", time, "s");
   const TransportProblem problem(slider, excitation);
-  if (problem.pulses())
-    throw std::invalid_argument("Transport: covers the distribution of the velocity under noise, not under pulses");
   const auto [step, steps] = problem.steps_to(time);
-  require(steps > 2,
+  require(steps > 2 || problem.pulses(),
           "Transport: a velocity under held noise needs a time of more than two values, of " + detail::shortest(step) +
               " s; the time",
           time, "s");
@@ -498,10 +496,30 @@ VelocityDistribution Transport::velocity(const AnySlider& slider, const Transpor
     sizes.push_back(10 * window.v * part * part * (0.5 + 0.5 * part));
   }
   const bool backward = !problem.one_way(), mirrored = problem.motion().mirrors();
-  // The probabilities of less than 0, of 0, of at most each size, and of at most minus each size.
+  // The probabilities of less than 0, of 0, of more than each size, and of at most minus each size.
+  const auto under_pulses = [&](const Chain& chain) -> Figures {
+    Figures at_start = Figures::Zero(2 + 2 * count);
+    at_start[1] = 1;
+    return at_time(chain, time, at_start, [&](std::size_t number) -> Figures {
+      const Chain::Speeds found = chain.speeds(weights_from_rest(chain, number - 1, progress), sizes);
+      Figures figures = Figures::Zero(2 + 2 * count);
+      figures[0] = backward ? found.backward : 0;
+      figures[1] = found.rest;
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto at = static_cast<Eigen::Index>(2 + i);
+        figures[at] = found.forward_to.back() - found.forward_to[i];
+        if (backward) figures[at + static_cast<Eigen::Index>(count)] = found.backward - found.backward_to[i];
+      }
+      return figures;
+    });
+  };
+  Accuracy accuracy{.tolerance = tolerance_, .judged = {}, .levels = 1, .slow = {1}};
+  for (Eigen::Index i = 2; problem.pulses() && i < static_cast<Eigen::Index>(2 + 2 * count); ++i)
+    accuracy.slow.push_back(i);
   const Refined refined =
-      refine(problem, window, step, {.tolerance = tolerance_, .judged = {}, .levels = 1, .slow = {1}},
+      refine(problem, window, step, accuracy,
              [&, first = step, last = steps](const Chain& chain) {
+               if (chain.pulses()) return under_pulses(chain);
                const auto parts = static_cast<std::size_t>(std::lround(first / chain.step()));
                const Chain::Vector p = weights_from_rest(chain, last * parts - chain.steps_to_below(), progress);
                Figures figures = Figures::Zero(2 + 2 * count);
@@ -510,9 +528,9 @@ VelocityDistribution Transport::velocity(const AnySlider& slider, const Transpor
                for (std::size_t i = 0; i < count; ++i) {
                  const auto at = static_cast<Eigen::Index>(2 + i), opposite = at + static_cast<Eigen::Index>(count);
                  if (progress) progress();
-                 figures[at] = chain.below(p, sizes[i], true);
-                 if (mirrored) figures[at] = (figures[at] + 1 - chain.below(p, -sizes[i], false)) / 2;
-                 if (backward) figures[opposite] = mirrored ? 1 - figures[at] : chain.below(p, -sizes[i], true);
+                 figures[at] = 1 - chain.below(p, sizes[i], true);
+                 if (mirrored) figures[at] = (figures[at] + chain.below(p, -sizes[i], false)) / 2;
+                 if (backward) figures[opposite] = mirrored ? figures[at] : chain.below(p, -sizes[i], true);
                }
                return figures;
              });
@@ -527,14 +545,14 @@ VelocityDistribution Transport::velocity(const AnySlider& slider, const Transpor
   table.below.push_back(mirrored ? (1 - atom) / 2 : refined.value[0]);
   for (std::size_t i = 0; i < count; ++i) {
     table.velocity.push_back(sizes[i]);
-    table.below.push_back(refined.value[static_cast<Eigen::Index>(2 + i)] - atom);
-    error = std::max(error, refined.error[static_cast<Eigen::Index>(2 + i)]);
+    table.below.push_back(1 - atom - refined.value[static_cast<Eigen::Index>(2 + i)]);
+    error = std::max(error, refined.whole_error(static_cast<Eigen::Index>(2 + i)));
   }
   table.below.front() = backward ? 0 : table.below.front();
   table.below.back() = 1 - atom;
   for (std::size_t i = 1; i < table.below.size(); ++i)  // within the errors
     table.below[i] = std::clamp(table.below[i], table.below[i - 1], 1 - atom);
-  return {std::move(table), error, atom > 0 ? refined.error[1] : 0, remark_of(excitation)};
+  return {std::move(table), error, atom > 0 ? refined.whole_error(1) : 0, remark_of(excitation)};
 }
 
 VelocityDistribution TransportPrediction::velocity(double at, const Progress& progress) const {
