@@ -111,11 +111,19 @@ class Remembering : public detail::LawFlows<Law> {
   double pull(double x, double weight) const noexcept { return slider_.mounting().spring().under(weight) * x; }
   double drag(double speed) const noexcept { return slider_.damping() * speed; }
 
+  /// The spring on which a segment of the usual duration runs if the law does not change, without a damper; null if
+  /// there is none.
+  template <class Now>
+  const Harmonic* spring(const Now& law, Direction direction, double duration) const {
+    if (!detail::equal(duration, usual_duration_) || slider_.damping() > 0) return nullptr;
+    return level(slider_.stiffness() + law.slope(direction)).undamped();
+  }
+
   /// The returned flow must be destroyed before the next call.
   template <class SlipStart>
   auto flow(Direction direction, const State& state, const SlipStart& start, double duration) const {
     if constexpr (std::same_as<SlipStart, Start> && form_of<Now> == Form::linear) {
-      const Now law = slider_.law().at(state);
+      const Now law = this->law_toward(direction, state, 1);
       const double slope = law.slope(direction);
       return LinearLevelFlow(level(slider_.stiffness() + slope), friction(law, state.displacement, 0, direction),
                              detail::SpringLaw<Now> ? 0 : slope, start, duration);
