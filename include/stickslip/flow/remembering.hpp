@@ -138,17 +138,19 @@ class Remembering : public detail::LawFlows<Law> {
 
   // The levels met last: a law has few slopes, to which it returns.
   const LinearLevel& level(double stiffness) const {
-    for (const auto& one : levels_)
-      if (one && detail::equal(one->stiffness(), stiffness)) return *one;
-    auto& one = levels_[std::exchange(oldest_, (oldest_ + 1) % levels_.size())];
-    return one.emplace(slider_.damping(), stiffness, usual_duration_);
+    if (levels_[last_] && detail::equal(levels_[last_]->stiffness(), stiffness)) [[likely]]
+      return *levels_[last_];
+    for (last_ = 0; last_ < levels_.size(); ++last_)
+      if (levels_[last_] && detail::equal(levels_[last_]->stiffness(), stiffness)) return *levels_[last_];
+    last_ = std::exchange(oldest_, (oldest_ + 1) % levels_.size());
+    return levels_[last_].emplace(slider_.damping(), stiffness, usual_duration_);
   }
 
   const Slider<Law>& slider_;
   double usual_duration_;
   mutable std::optional<Slider<Now>> now_;
   mutable std::array<std::optional<LinearLevel>, 8> levels_;
-  mutable std::size_t oldest_ = 0;
+  mutable std::size_t oldest_ = 0, last_ = 0;  // of them
 };
 
 /// Makes flows that support the law under any load.

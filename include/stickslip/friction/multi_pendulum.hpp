@@ -1,6 +1,7 @@
 // A friction pendulum with several sliding surfaces.
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -74,8 +75,7 @@ class MultiPendulum {
     }
     for (unsigned moving = 0; moving <= all(); ++moving) together_.push_back(of_moving(moving));
     for (const Element& element : elements_)
-      if (element.radius < infinite)
-        push_ = std::max(push_, standard_gravity * (element.capacity / element.radius));
+      if (element.radius < infinite) push_ = std::max(push_, standard_gravity * (element.capacity / element.radius));
   }
 
   const std::vector<double>& radii() const noexcept { return radii_; }
@@ -175,8 +175,7 @@ class MultiPendulum {
     const Branch now = branch(memory, s);
     const unsigned others = all() & ~(now.moving | stopped(memory, s));
     double changes = together_[now.moving].stops_at;
-    for (int k = 0; k < count(); ++k)
-      if (others & bit(k)) changes = std::min(changes, threshold(memory, k, s));
+    for_each(others, [&](int k) { changes = std::min(changes, threshold(memory, k, s)); });
     // Forces within this of a change may be beyond it.
     const double room = changes - 0x1p-40 * (std::abs(changes) + std::abs(now.force)) - now.force;
     return room > 0 && now.radius < infinite ? room * now.radius : 0;
@@ -198,9 +197,9 @@ class MultiPendulum {
     const int s = step(direction_of(state.mode));
     const Branch now = branch(memory, s);
     state.sliding_distance += distance;
-    memory.force = now.force + distance / now.radius;
-    for (int k = 0; k < count(); ++k)
-      if (now.moving & bit(k)) memory.place[index(k)] = s * (memory.force - mu_of(k));
+    const double force = force_beyond(now, distance);
+    memory.force = force;
+    for_each(now.moving, [&](int k) { memory.place[index(k)] = s * (force - mu_of(k)); });
     if (distance > 0) (s > 0 ? memory.at_backward : memory.at_forward) &= static_cast<std::uint8_t>(~now.moving);
     memory.direction = static_cast<std::int8_t>(s);
     memory.moving = static_cast<std::uint8_t>(now.moving);
@@ -305,7 +304,7 @@ class MultiPendulum {
   /// The same after a distance up to the next change, before it takes effect.
   double force_after(const PendulumMemory& memory, Direction direction, double distance) const noexcept {
     const Branch now = branch(memory, step(direction));
-    return step(direction) * (now.force + (now.radius < infinite ? distance / now.radius : 0));
+    return step(direction) * force_beyond(now, distance);
   }
 
   friend bool operator==(const MultiPendulum& a, const MultiPendulum& b) {
@@ -324,10 +323,10 @@ class MultiPendulum {
     unsigned moving;
     double radius;
   };
-  // Elements that move together: the sum of their radii, the slope and the friction of a Line, and the force at which
-  // the first of them comes to its stop, if none is flat.
+  // Elements that move together: the sum of their radii, and its inverse; the slope and the friction of a Line; and the
+  // force at which the first of them comes to its stop, if none is flat.
   struct Together {
-    double radius, slope, friction, stops_at;
+    double radius, rate, slope, friction, stops_at;
   };
   struct Change {
     double distance;  // to it
@@ -352,6 +351,14 @@ class MultiPendulum {
       if (moving & bit(k)) sum += radius(k);
     return sum;
   }
+  template <class Use>
+  static void for_each(unsigned elements, Use&& use) {
+    for (; elements != 0; elements &= elements - 1) use(std::countr_zero(elements));
+  }
+  double force_beyond(const Branch& now, double distance) const noexcept {
+    return now.force + distance * together_[now.moving].rate;
+  }
+
   // Of flat elements that move together equal shares are taken; others then stay.
   double share_of(double sum, unsigned moving, int k) const noexcept {
     if (!(moving & bit(k))) return 0;
@@ -368,8 +375,11 @@ class MultiPendulum {
   }
 
   Branch branch(const PendulumMemory& memory, int s) const noexcept {
-    if (memory.direction == s && memory.moving != 0)
+    if (memory.direction == s && memory.moving != 0) [[likely]]
       return {memory.force, memory.moving, together_[memory.moving].radius};
+    return start(memory, s);
+  }
+  Branch start(const PendulumMemory& memory, int s) const noexcept {
     // Those with the lowest threshold start. Where all are at their stops, the one that leaves first would return last.
     Branch start{infinite, 0, 0};
     const unsigned held = stopped(memory, s);
@@ -410,8 +420,8 @@ class MultiPendulum {
   Change change(const PendulumMemory& memory, const Branch& now, int s) const noexcept {
     double nearest = infinite;
     for (int k = 0; k < count(); ++k)
-      nearest = std::min(nearest, now.moving & bit(k) ? distance_to_stop(memory, now, k, s)
-                                                      : distance_to_join(memory, now, k, s));
+      nearest = std::min(
+          nearest, now.moving & bit(k) ? distance_to_stop(memory, now, k, s) : distance_to_join(memory, now, k, s));
     if (!(nearest < infinite)) return {infinite, false};
     unsigned stop = stopped(memory, s);
     if ((stop | now.moving) == all())
@@ -433,7 +443,7 @@ class MultiPendulum {
 
   // Move over a distance, and change what lies within `reach`.
   void shift(PendulumMemory& memory, const Branch& now, int s, double distance, double reach) const noexcept {
-    double force = now.force + (now.radius < infinite ? distance / now.radius : 0);
+    double force = force_beyond(now, distance);
     unsigned moving = now.moving, stops = 0;
     for (int k = 0; k < count(); ++k) {
       if (distance_to_join(memory, now, k, s) <= reach) {
@@ -475,7 +485,7 @@ class MultiPendulum {
       if (const double part = share_of(radius, moving, k); part > 0) friction += part * mu_of(k);
       if (moving & bit(k)) stops_at = std::min(stops_at, capacity(k) / this->radius(k) + mu_of(k));
     }
-    return {radius, standard_gravity / radius, standard_gravity * friction, stops_at};
+    return {radius, radius > 0 ? 1 / radius : 0, standard_gravity / radius, standard_gravity * friction, stops_at};
   }
 
   // Surface of a ring, counted from inside, in the lower (0) or upper (1) half.

@@ -30,6 +30,8 @@ struct Departure {
 /// Makes the flows of a slider, and knows the forces on it:
 ///
 ///     law_now(state, weight)            // the law in x and speed that applies now, under a weight N+/g
+///     law_toward(direction, state, weight)
+///                                       // the same, for a motion in one direction only
 ///     pull(x, weight), drag(speed)      // forces of spring and damper, per unit mass [m/s^2]
 ///     push()                            // the largest acceleration that springs in the law give under the weight
 ///     flow(direction, state, start, duration)
@@ -40,6 +42,8 @@ struct Departure {
 ///                                       // as SegmentLoad, with the net load and the acceleration at that time. A
 ///                                       // memory that changes at rest then has its value at the departure, or at the
 ///                                       // end of the segment
+///     surely_ahead(state)               // a distance in the direction of the mode, a little less than `ahead` [m];
+///                                       // `slid_surely(state, distance)` is `slid` over less than that
 ///     remember(flow, time, state), slid(state, distance)
 ///                                       // update the memory of the law after a part of a flow
 ///     friction_work(slide, leg, state)  // work against friction during a leg [m^2/s^2]

@@ -114,8 +114,9 @@ class Axis {
     const Direction direction = direction_of(state_.mode);
     const double load = net_ + pull(), speed = std::abs(state_.velocity);
     const double begins = std::exchange(departs_, false) ? acceleration_ : acceleration(direction);
-    const auto start = forces_.slip(sign(direction), speed, begins, std::exchange(rise_, 0.0), load, left_,
-                                    [&] { return resist(law_toward(direction), state_.displacement, speed, direction); });
+    const auto start = forces_.slip(sign(direction), speed, begins, std::exchange(rise_, 0.0), load, left_, [&] {
+      return resist(law_toward(direction), state_.displacement, speed, direction);
+    });
     using Slide =
         AxisSlide<std::remove_const_t<decltype(start)>, decltype(flows_.flow(direction, state_, start, left_))>;
     return Slide{direction, load, left_, start, flows_.flow(direction, state_, start, left_)};

@@ -19,7 +19,8 @@ namespace stickslip::detail {
 ///     spring(law, direction, duration)  // the spring, without a damper, on which a slip runs over the distance `ahead`,
 ///                                       // of which it knows the motion over this duration; null if there is none
 template <class Flows>
-concept FlowsOnSprings = FlowMaker<Flows> && MemoryLaw<typename Flows::Law> && form_of<typename Flows::Law> == Form::linear;
+concept FlowsOnSprings = FlowMaker<Flows> && MemoryLaw<typename Flows::Law> && form_of<typename Flows::Law>
+== Form::linear;
 
 /// Whether a slider that is stuck at the beginning of a segment stays so: the load is held at both ends.
 template <FlowsOnSprings Flows>
