@@ -299,7 +299,7 @@ template <FlowMaker Flows, class Segment, class Place, MotionObserver Observer, 
   if (!(forces.duration > 0)) return;
   if constexpr (!Limits::bounded && std::same_as<std::remove_cvref_t<decltype(forces)>, LinearLoad> &&
                 FlowsOnSprings<Flows>)
-    if (pass_in_one_step(flows, forces, state, observer)) return;
+    if (pass_in_one_step(flows, forces, limits, state, observer)) return;
   Axis<Flows, std::remove_cvref_t<decltype(forces)>, Place, Limits> slider(flows, forces, state, limits);
   advance(slider, observer);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "stickslip/base/min_max.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/flow/detail/maker.hpp"
 #include "stickslip/flow/oscillator.hpp"
@@ -32,9 +33,11 @@ bool stays(const Flows& flows, const LinearLoad& load, const State& state) {
 }
 
 /// Move a slider through a segment that certainly holds no event and no change of the law.
+/// @param limits  Bounds or Unbounded
 /// @return whether it did; if not, nothing has changed
-template <FlowsOnSprings Flows, MotionObserver Observer>
-bool pass_in_one_step(const Flows& flows, const LinearLoad& load, State& state, Observer& observer) {
+template <FlowsOnSprings Flows, class Limits, MotionObserver Observer>
+bool pass_in_one_step(const Flows& flows, const LinearLoad& load, const Limits& limits, State& state,
+                      Observer& observer) {
   if (state.mode == Mode::stuck) return stays(flows, load, state);
   const Direction direction = direction_of(state.mode);
   const double s = sign(direction), x = state.displacement, speed = std::abs(state.velocity), time = load.duration;
@@ -49,7 +52,8 @@ bool pass_in_one_step(const Flows& flows, const LinearLoad& load, State& state, 
   const Progress end = flow.at_horizon();
   // Within one arch, a speed that ends above zero is zero before only if it falls at the start and rises at the end.
   if (!(end.speed > 0 && (begins >= 0 || end.acceleration <= 0))) return false;
-  if (!(end.distance < flows.surely_ahead(state))) return false;
+  constexpr double surely = 1 - 0x1p-40;
+  if (!(end.distance < std::min(flows.surely_ahead(state), surely * limits.room(direction, x)))) return false;
 
   if constexpr (requires { observer.follow(flow, time); }) observer.follow(flow, time);
   if constexpr (EnergyObserver<Observer>)
