@@ -20,8 +20,8 @@
 #define STICKSLIP_LINEAR_LANES
 namespace stickslip::detail {
 
-/// The lanes of one vector, as arrays over them. A lane that slides has y = sign x, its speed u, and what its step needs
-/// (LinearRegime, LinearStepOf); n is the ground acceleration. One that is stuck has steps that are zero.
+/// The lanes of one vector, as arrays over them. A lane that slides has y = sign x, its speed u, and what its step
+/// needs (LinearRegime, LinearStepOf); n is the ground acceleration. One that is stuck has steps that are zero.
 struct LinearGroup {
   static constexpr std::size_t most = 16;
   using Row = double[most];
@@ -85,7 +85,7 @@ HWY_INLINE void slide_group(const LevelGround& ground, std::span<LinearLane> the
       const Lanes speed = multiply_add(speed_u, u, multiply_add(speed_g, gain, speed_q * q));
       const Lanes there = y + multiply_add(way_q, q, multiply_add(way_u, u, way_g * gain));
       const Lanes begins = nfma(damping, u, q), ends = multiply_add(end_u, u, multiply_add(end_g, gain, end_q * q));
-      // Within one arch, a speed that ends above zero is zero before only if it falls at the start and rises at the end.
+      // Within one arch, a speed that ends above zero is zero before only if it falls at first and rises at the end.
       const auto passes = (speed > least) & ((begins >= 0) | (ends <= 0)) & (there < limit) &
                           (min(first, last) >= lowest) & (max(first, last) <= highest);
       eventful = bits(~passes);

@@ -17,8 +17,8 @@ namespace stickslip::detail {
 
 /// A maker of flows whose law has memory and changes linearly with the distance:
 ///
-///     spring(law, direction, duration)  // the spring, without a damper, on which a slip runs over the distance `ahead`,
-///                                       // of which it knows the motion over this duration; null if there is none
+///     spring(law, direction, duration)  // the spring, without a damper, on which a slip runs over the distance
+///                                       // `ahead`, if the motion on it over this duration is known; else null
 template <class Flows>
 concept FlowsOnSprings = FlowMaker<Flows> && MemoryLaw<typename Flows::Law> && form_of<typename Flows::Law>
 == Form::linear;
