@@ -99,7 +99,7 @@ class LinearMover {
   virtual void slid(State& state, double distance) const = 0;
   /// Moves it through a segment by the event loop.
   virtual void advance(const Segment& segment, State& state, SweepWatch& watch) const = 0;
-  /// Moves it without ground acceleration until it rests.
+  /// Moves it without ground acceleration until it comes to rest.
   virtual void settle(State& state, SweepWatch& watch) const = 0;
 };
 
