@@ -1,4 +1,4 @@
-// Movers of the laws of the library; see linear_mover.hpp.
+// Movers of the laws of the library; see linear_mover.hpp and laws.hpp.
 #include "stickslip/sliding/detail/linear_mover.hpp"
 
 namespace stickslip::detail {
