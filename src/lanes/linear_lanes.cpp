@@ -14,7 +14,6 @@
 #include "base/attempt.hpp"
 #include "lanes/pack-inl.hpp"
 #include "lanes/rests-inl.hpp"
-#include "stickslip/base/equal.hpp"
 
 #ifndef STICKSLIP_LINEAR_LANES
 #define STICKSLIP_LINEAR_LANES
@@ -175,9 +174,9 @@ void LinearGroup::take(std::size_t k, const LinearLane& lane) {
 }
 
 void LinearGroup::give(std::size_t k, LinearLane& lane) const {
-  if (lane.failed || lane.state.mode == Mode::stuck || equal(y[k], from[k])) return;
+  if (lane.failed || lane.state.mode == Mode::stuck) return;
   const double toward = sign(direction_of(lane.state.mode));
-  lane.mover->slid(lane.state, y[k] - from[k]);
+  if (y[k] > from[k]) lane.mover->slid(lane.state, y[k] - from[k]);
   lane.state.displacement = toward * y[k];
   lane.state.velocity = toward * u[k];
 }
