@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "lanes/blocks-inl.hpp"
+#include "lanes/rests-inl.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/sliding/integrate.hpp"
 
@@ -26,35 +27,6 @@ void advance_lane(LevelLane& lane, const LevelGround& ground, std::size_t i);
 
 HWY_BEFORE_NAMESPACE();
 namespace stickslip::detail::HWY_NAMESPACE {
-
-// The first of `count` indices starting at `from` at which `a` is below `lowest` or `b` above `highest`; count if there
-// is none.
-HWY_INLINE std::size_t first_outside(const double* a, const double* b, std::size_t from, std::size_t count,
-                                     double lowest, double highest) {
-  const Real low = lowest, high = highest;
-  std::size_t i = from;
-  for (; i + Real::size <= count; i += Real::size) {
-    const Bool outside = (Real::load(a + i) < low) | (Real::load(b + i) > high);
-    if (HWY_UNLIKELY(any(outside))) return i + static_cast<std::size_t>(std::countr_zero(bits(outside)));
-  }
-  while (i < count && !(a[i] < lowest || b[i] > highest)) ++i;
-  return i;
-}
-
-// The next segment, from i on, in which the ground acceleration leaves what holds all lanes of a vector.
-HWY_INLINE std::size_t next_departure(const LevelGround& ground, std::size_t i, double lowest, double highest) {
-  constexpr std::size_t block = LevelGround::block;
-  const double *const start = ground.start(), *const end = ground.end();
-  const std::size_t segments = ground.segments();
-  // What holds a lane at the end of a segment holds it at the beginning of the next one.
-  if (i == 0 && (start[0] < lowest || start[0] > highest)) return 0;
-  const std::size_t begun = std::min((i + block - 1) / block * block, segments);
-  i = first_outside(end, end, i, begun, lowest, highest);
-  if (i < begun || begun == segments) return i;
-  const std::size_t in = first_outside(ground.lowest().data(), ground.highest().data(), begun / block,
-                                       ground.lowest().size(), lowest, highest);
-  return first_outside(end, end, std::min(in * block, segments), segments, lowest, highest);
-}
 
 // Records the lanes at their events: between events, x is monotonic.
 struct LevelAccount {

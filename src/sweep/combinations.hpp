@@ -21,6 +21,10 @@
 
 namespace stickslip::detail {
 
+/// The impacts of the mirrored response. Those on a circular stop remain.
+inline Impacts mirrored(const Impacts& impacts) noexcept { return {impacts.backward, impacts.forward}; }
+inline const SideImpacts& mirrored(const SideImpacts& impacts) noexcept { return impacts; }
+
 /// What a sweep keeps of a combination.
 template <class Place, class Hits>
 struct SweepOutcomeOf {
@@ -30,6 +34,13 @@ struct SweepOutcomeOf {
   std::uint64_t events = 0;
   Hits impacts{};
   bool airborne = false;
+
+  SweepOutcomeOf mirrored() const {
+    SweepOutcomeOf other = *this;
+    other.residual = -residual;
+    other.impacts = detail::mirrored(impacts);
+    return other;
+  }
 };
 
 inline double without_minus_zero(double x) noexcept { return x + 0.0; }
@@ -149,9 +160,7 @@ class Combinations {
                                 storage.events.size() - 1,
                                 table_.impacts.empty() ? Hits{} : impacts_of(storage.events),
                                 storage.state.in_flight};
-          Outcome mirrored = outcome;
-          mirrored.residual = -outcome.residual;
-          for_each([&](bool as) { write(slider, record, as, as == reversed ? outcome : mirrored); });
+          for_each([&](bool as) { write(slider, record, as, as == reversed ? outcome : outcome.mirrored()); });
         },
         [&](const char* message) { for_each([&](bool as) { fail(slider, record, as, message); }); });
   }

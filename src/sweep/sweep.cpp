@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lanes/level_lanes.hpp"
+#include "lanes/linear_lanes.hpp"
 #include "sweep/combinations.hpp"
 #include "sweep/sweep_groups.hpp"
 
@@ -46,6 +47,8 @@ class Sweep : Combinations<double, Impacts> {
     for (std::size_t s = 0; s < sliders.size(); ++s)
       if (const auto& block = sliders[s].block; block && has_level_lanes(block->law))
         add_lanes(s, *block);
+      else if (sliders[s].mover)
+        linear_.push_back(s);
       else if (sliders[s].integrate)
         singles_.push_back(s);
     // With few records, threads share a group, and each of them does its common work.
@@ -65,17 +68,20 @@ class Sweep : Combinations<double, Impacts> {
   SweepTable run() {
     // Long tasks first would be fairer, but these are short: a record's lanes, or one slider under one record.
     const std::size_t grouped = singles_.size() + parts_.size();
-    const std::size_t tasks_a_record = (lanes_.empty() ? 0 : 1) + grouped;
+    const std::size_t linear = (linear_.size() + linear_part - 1) / linear_part;
+    const std::size_t tasks_a_record = (lanes_.empty() ? 0 : 1) + linear + grouped;
     return Combinations::run(tasks_a_record * motions(), [&](const auto& next) {
       Response storage;
       for (std::size_t task; next(task);) {
         const std::size_t record = task / tasks_a_record, part = task % tasks_a_record;
-        if (part == grouped)
+        if (part == grouped + linear)
           run_lanes(record);
+        else if (part >= grouped)
+          run_linear(part - grouped, record);
         else if (part >= singles_.size())
           run_group(parts_[part - singles_.size()], record);
         else
-          for_each_polarity([&](bool reversed) { run_single(singles_[part], record, reversed, storage); });
+          run_single(singles_[part], record, storage);
       }
     });
   }
@@ -132,8 +138,54 @@ class Sweep : Combinations<double, Impacts> {
   }
 
   void run_single(std::size_t slider, std::size_t record, bool reversed, Response& storage) {
-    Combinations::run_single(slider, sliders_[slider].integrate, record, reversed, false, IntegrateOptions{}, storage,
+    run_single(slider, record, reversed, false, storage);
+  }
+  void run_single(std::size_t slider, std::size_t record, bool reversed, bool mirrors, Response& storage) {
+    Combinations::run_single(slider, sliders_[slider].integrate, record, reversed, mirrors, IntegrateOptions{}, storage,
                              impacts);
+  }
+  // In each polarity, once if the slider mirrors: under the motion as recorded, so that no polarity changes the bits.
+  void run_single(std::size_t slider, std::size_t record, Response& storage) {
+    const bool mirrors = sliders_[slider].mirrors;
+    for (const bool reversed : {false, true})
+      if (mirrors ? !reversed : is_wanted(reversed)) run_single(slider, record, reversed, mirrors, storage);
+  }
+
+  void run_linear(std::size_t part, std::size_t record) {
+    const auto these = std::span(linear_).subspan(part * linear_part);
+    run_linear(record, these.first(std::min(linear_part, these.size())));
+  }
+  void run_linear(std::size_t record, std::span<const std::size_t> these) {
+    const GroundMotion& motion = this->motion(record);
+    Response storage;
+    const LevelGround ground(motion);
+    if (motion.has_vertical() || !ground.usable()) {
+      for (const std::size_t slider : these) run_single(slider, record, storage);
+      return;
+    }
+    std::vector<LinearLane> lanes;
+    std::vector<std::size_t> of;
+    for (const std::size_t slider : these)
+      for (const bool turned : {false, true}) {
+        if (sliders_[slider].mirrors ? turned : !is_wanted(turned)) continue;
+        lanes.push_back({sliders_[slider].mover(motion.dt()), turned});
+        of.push_back(slider);
+      }
+    slide_linear(ground, lanes, options().settle);
+    for (std::size_t k = 0; k < lanes.size(); ++k) {
+      const LinearLane& lane = lanes[k];
+      const bool mirrors = sliders_[of[k]].mirrors;
+      check_stopped();
+      if (lane.failed) {
+        run_single(of[k], record, lane.turned, mirrors, storage);
+        continue;
+      }
+      const SweepOutcome outcome{lane.watch.peak, lane.state.displacement, lane.watch.sliding_distance,
+                                 lane.watch.events, lane.watch.impacts};
+      for_each_polarity([&](bool as) {
+        if (as == lane.turned || mirrors) write(of[k], record, as, as == lane.turned ? outcome : outcome.mirrored());
+      });
+    }
   }
 
   void run_group(const GroupPart& part, std::size_t record) {
@@ -155,7 +207,9 @@ class Sweep : Combinations<double, Impacts> {
 
   std::span<const SweepSlider> sliders_;
   std::vector<Lane> lanes_;
-  std::vector<std::size_t> singles_;  // sliders integrated one at a time
+  static constexpr std::size_t linear_part = 64;  // sliders of a task
+  std::vector<std::size_t> linear_;               // sliders in vectors whose motion is linear between events
+  std::vector<std::size_t> singles_;              // sliders integrated one at a time
   std::vector<GroupPart> parts_;
 };
 

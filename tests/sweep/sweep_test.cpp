@@ -14,6 +14,8 @@
 
 #include "lanes/instruction_sets.hpp"
 #include "stickslip/friction/caster.hpp"
+#include "stickslip/friction/degrading.hpp"
+#include "stickslip/friction/multi_pendulum.hpp"
 #include "stickslip/friction/static_kinetic.hpp"
 #include "stickslip/friction/velocity_dependent.hpp"
 #include "support/catch.hpp"
@@ -151,6 +153,66 @@ TEST_CASE("on slopes, under vertical motion and with static friction a sweep is 
     CHECK(d.moved > 40 * records);
     CHECK(d.events == 0);
     CHECK(d.error < 1e-12);
+    CHECK(table.failures.empty());
+  });
+}
+
+namespace {
+
+using Linear = std::variant<Slider<Coulomb>, Slider<StaticKinetic<Coulomb>>, Slider<Degrading>, Slider<MultiPendulum>>;
+
+/// Sliders whose motion is linear between events: on springs, soft and stiff for the steps of `quake`, with dampers, and
+/// with stops; with a static level; of friction that changes with the distance; of several surfaces.
+Linear linear_slider(std::mt19937_64& bits) {
+  const auto draw = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(bits); };
+  const auto sometimes = [&](double value) { return bits() % 2 == 0 ? value : 0; };
+  Mounting mounting{.natural_frequency = sometimes(std::exp(draw(-1, 4))), .damping = sometimes(draw(0, 3))};
+  const Stops stops(std::exp(draw(-6, 0)), std::exp(draw(-6, 0)), draw(0, 0.6));
+  const double level = std::exp(draw(-3, 1));
+  switch (bits() % 5) {
+    case 0:
+      if (bits() % 2 == 0) mounting.stops = stops;
+      mounting.one_way = bits() % 4 == 0;
+      return Slider(block(bits), mounting);
+    case 1:
+      return Slider(StaticKinetic(Coulomb(level), 1.3 * level, 1.3 * level), mounting);
+    case 2: {
+      const double reach = std::exp(draw(-4, 0));
+      return Slider(Degrading({0, reach, 3 * reach}, {level, 0.4 * level, 0.6 * level}), mounting);
+    }
+    case 3:
+      return Slider(MultiPendulum({0.4, 2, 3}, {0.01, draw(0.03, 0.06), draw(0.06, 0.1)}, {0.06, 0.3, 0.3}, 0.3, true));
+    default: {
+      std::vector<double> radii, mu, capacities;
+      for (std::uint64_t k = 1 + bits() % 5; k > 0; --k) {
+        radii.push_back(bits() % 12 == 0 ? infinity : draw(0.3, 3));
+        mu.push_back(bits() % 3 == 0 ? 0.05 : draw(0.01, 0.1));
+        capacities.push_back(bits() % 5 == 0 ? infinity : draw(0.01, 0.1));
+      }
+      return Slider(MultiPendulum(radii, mu, capacities, 0.2));
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("sliders whose motion is linear between events are swept as integrate moves them", "[sweep]") {
+  std::mt19937_64 bits(5);
+  std::vector<Linear> sliders;
+  for (int i = 0; i < 61; ++i) sliders.push_back(linear_slider(bits));
+  std::vector<GroundMotion> motions;
+  const std::uint64_t records = size(7, 2);
+  for (std::uint64_t seed = 0; seed < records; ++seed) motions.push_back(quake(500 + seed));
+  motions.push_back({{0, 3, -2, 1, 0}, std::vector<double>{0, 0.5, 0.75, 2, 2.5}});  // uneven steps
+  on_each_instruction_set([&](const std::string& name) {
+    const SweepOptions options{.settle = true, .threads = 1};
+    const SweepTable table = sweep(sliders, motions, options);
+    const Differences d = differences(table, sliders, motions, options);
+    INFO(name);
+    CHECK(d.combinations == 2 * sliders.size() * motions.size());
+    CHECK(2 * d.moved > d.combinations);
+    CHECK(d.events == 0);
+    CHECK(d.error < 1e-11);
     CHECK(table.failures.empty());
   });
 }

@@ -111,11 +111,19 @@ class Remembering : public detail::LawFlows<Law> {
   double pull(double x, double weight) const noexcept { return slider_.mounting().spring().under(weight) * x; }
   double drag(double speed) const noexcept { return slider_.damping() * speed; }
 
+  /// The spring on which a segment of the usual duration runs if the law does not change, without a damper; null if
+  /// there is none.
+  template <class Now>
+  const Harmonic* spring(const Now& law, Direction direction, double duration) const {
+    if (!detail::equal(duration, usual_duration_) || slider_.damping() > 0) return nullptr;
+    return level(slider_.stiffness() + law.slope(direction)).undamped();
+  }
+
   /// The returned flow must be destroyed before the next call.
   template <class SlipStart>
   auto flow(Direction direction, const State& state, const SlipStart& start, double duration) const {
     if constexpr (std::same_as<SlipStart, Start> && form_of<Now> == Form::linear) {
-      const Now law = slider_.law().at(state);
+      const Now law = this->law_toward(direction, state, 1);
       const double slope = law.slope(direction);
       return LinearLevelFlow(level(slider_.stiffness() + slope), friction(law, state.displacement, 0, direction),
                              detail::SpringLaw<Now> ? 0 : slope, start, duration);
@@ -130,17 +138,19 @@ class Remembering : public detail::LawFlows<Law> {
 
   // The levels met last: a law has few slopes, to which it returns.
   const LinearLevel& level(double stiffness) const {
-    for (const auto& one : levels_)
-      if (one && detail::equal(one->stiffness(), stiffness)) return *one;
-    auto& one = levels_[std::exchange(oldest_, (oldest_ + 1) % levels_.size())];
-    return one.emplace(slider_.damping(), stiffness, usual_duration_);
+    if (levels_[last_] && detail::equal(levels_[last_]->stiffness(), stiffness)) [[likely]]
+      return *levels_[last_];
+    for (last_ = 0; last_ < levels_.size(); ++last_)
+      if (levels_[last_] && detail::equal(levels_[last_]->stiffness(), stiffness)) return *levels_[last_];
+    last_ = std::exchange(oldest_, (oldest_ + 1) % levels_.size());
+    return levels_[last_].emplace(slider_.damping(), stiffness, usual_duration_);
   }
 
   const Slider<Law>& slider_;
   double usual_duration_;
   mutable std::optional<Slider<Now>> now_;
   mutable std::array<std::optional<LinearLevel>, 8> levels_;
-  mutable std::size_t oldest_ = 0;
+  mutable std::size_t oldest_ = 0, last_ = 0;  // of them
 };
 
 /// Makes flows that support the law under any load.

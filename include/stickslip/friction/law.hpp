@@ -74,6 +74,11 @@ class InvalidLevel : public std::invalid_argument, public NoLevel {
 /// and the law in x and speed defines
 ///
 ///     friction(x, direction)   // the part of the resistance that dissipates [m/s^2]
+/// Where these cost less than the above, it can define
+///
+///     toward(state, direction)      // as `at`, for a motion in one direction only
+///     surely_ahead(state)           // a distance in the direction of the mode, a little less than `ahead`
+///     slide_surely(state, distance) // as `slide`, over less than that
 template <class Law>
 concept MemoryLaw = std::copy_constructible<Law> &&
     requires(const Law& law, const State& state, State& there, Direction direction) {

@@ -1,6 +1,7 @@
 // A friction pendulum with several sliding surfaces.
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -72,6 +73,9 @@ class MultiPendulum {
       for (std::size_t ring = 0; ring <= radii_.size() / 2; ++ring)
         for (const std::size_t half : {std::size_t{0}, std::size_t{1}}) elements_.push_back(of_half(ring, half));
     }
+    for (unsigned moving = 0; moving <= all(); ++moving) together_.push_back(of_moving(moving));
+    for (const Element& element : elements_)
+      if (element.radius < infinite) push_ = std::max(push_, standard_gravity * (element.capacity / element.radius));
   }
 
   const std::vector<double>& radii() const noexcept { return radii_; }
@@ -154,10 +158,27 @@ class MultiPendulum {
   Piece at(const State& state) const noexcept {
     return {line(state.pendulum, +1), line(state.pendulum, -1), state.displacement};
   }
+  /// The same for a motion in one direction only.
+  Piece toward(const State& state, Direction direction) const noexcept {
+    const Piece::Line one = line(state.pendulum, step(direction));
+    return {one, one, state.displacement};
+  }
   /// Distance to the next change [m]. The last stop is not a change of the law: the slider hits it.
   double ahead(const State& state, Direction direction) const noexcept {
     const Change next = change(state.pendulum, branch(state.pendulum, step(direction)), step(direction));
     return next.last ? infinite : next.distance;
+  }
+  /// A distance in the direction of the mode over which there is no change, for certain [m]; 0 if it is not known.
+  double surely_ahead(const State& state) const noexcept {
+    const PendulumMemory& memory = state.pendulum;
+    const int s = step(direction_of(state.mode));
+    const Branch now = branch(memory, s);
+    const unsigned others = all() & ~(now.moving | stopped(memory, s));
+    double changes = together_[now.moving].stops_at;
+    for_each(others, [&](int k) { changes = std::min(changes, threshold(memory, k, s)); });
+    // Forces within this of a change may be beyond it.
+    const double room = changes - 0x1p-40 * (std::abs(changes) + std::abs(now.force)) - now.force;
+    return room > 0 && now.radius < infinite ? room * now.radius : 0;
   }
   void pass(State& state, Direction direction) const noexcept {
     const double distance = ahead(state, direction);
@@ -169,6 +190,19 @@ class MultiPendulum {
   void slide(State& state, double distance) const noexcept {
     state.sliding_distance += distance;
     move(state.pendulum, step(direction_of(state.mode)), distance);
+  }
+  /// The same over less than the distance `surely_ahead`.
+  void slide_surely(State& state, double distance) const noexcept {
+    PendulumMemory& memory = state.pendulum;
+    const int s = step(direction_of(state.mode));
+    const Branch now = branch(memory, s);
+    state.sliding_distance += distance;
+    const double force = force_beyond(now, distance);
+    memory.force = force;
+    for_each(now.moving, [&](int k) { memory.place[index(k)] = s * (force - mu_of(k)); });
+    if (distance > 0) (s > 0 ? memory.at_backward : memory.at_forward) &= static_cast<std::uint8_t>(~now.moving);
+    memory.direction = static_cast<std::int8_t>(s);
+    memory.moving = static_cast<std::uint8_t>(now.moving);
   }
   /// Gives a state without memory that of a first motion from the center to its displacement.
   void begin(State& state) const noexcept {
@@ -183,12 +217,7 @@ class MultiPendulum {
     return standard_gravity * sum;
   }
   /// The largest acceleration that the springs of the elements give under the weight [m/s^2]; infinite without stops.
-  double push() const noexcept {
-    double steepest = 0;
-    for (const Element& element : elements_)
-      if (element.radius < infinite) steepest = std::max(steepest, element.capacity / element.radius);
-    return standard_gravity * steepest;
-  }
+  double push() const noexcept { return push_; }
   /// Adds the last stop to a mounting.
   /// @throws std::invalid_argument if it has a slope, slides one way, is a pendulum itself, or has stops that lie
   ///         farther away
@@ -265,7 +294,7 @@ class MultiPendulum {
     return branch(memory, step(direction)).moving;
   }
   /// The share of element k in a displacement in which several move.
-  double share(unsigned moving, int k) const noexcept { return share_of(sum_of_radii(moving), moving, k); }
+  double share(unsigned moving, int k) const noexcept { return share_of(together_[moving].radius, moving, k); }
 
   /// F/N while the bearing moves in a direction, beyond a state.
   double force(const PendulumMemory& memory, Direction direction) const noexcept {
@@ -275,7 +304,7 @@ class MultiPendulum {
   /// The same after a distance up to the next change, before it takes effect.
   double force_after(const PendulumMemory& memory, Direction direction, double distance) const noexcept {
     const Branch now = branch(memory, step(direction));
-    return step(direction) * (now.force + (now.radius < infinite ? distance / now.radius : 0));
+    return step(direction) * force_beyond(now, distance);
   }
 
   friend bool operator==(const MultiPendulum& a, const MultiPendulum& b) {
@@ -293,6 +322,11 @@ class MultiPendulum {
     double force;
     unsigned moving;
     double radius;
+  };
+  // Elements that move together: the sum of their radii, and its inverse; the slope and the friction of a Line; and the
+  // force at which the first of them comes to its stop, if none is flat.
+  struct Together {
+    double radius, rate, slope, friction, stops_at;
   };
   struct Change {
     double distance;  // to it
@@ -317,6 +351,14 @@ class MultiPendulum {
       if (moving & bit(k)) sum += radius(k);
     return sum;
   }
+  template <class Use>
+  static void for_each(unsigned elements, Use&& use) {
+    for (; elements != 0; elements &= elements - 1) use(std::countr_zero(elements));
+  }
+  double force_beyond(const Branch& now, double distance) const noexcept {
+    return now.force + distance * together_[now.moving].rate;
+  }
+
   // Of flat elements that move together equal shares are taken; others then stay.
   double share_of(double sum, unsigned moving, int k) const noexcept {
     if (!(moving & bit(k))) return 0;
@@ -333,7 +375,11 @@ class MultiPendulum {
   }
 
   Branch branch(const PendulumMemory& memory, int s) const noexcept {
-    if (memory.direction == s && memory.moving != 0) return {memory.force, memory.moving, sum_of_radii(memory.moving)};
+    if (memory.direction == s && memory.moving != 0) [[likely]]
+      return {memory.force, memory.moving, together_[memory.moving].radius};
+    return start(memory, s);
+  }
+  Branch start(const PendulumMemory& memory, int s) const noexcept {
     // Those with the lowest threshold start. Where all are at their stops, the one that leaves first would return last.
     Branch start{infinite, 0, 0};
     const unsigned held = stopped(memory, s);
@@ -357,7 +403,7 @@ class MultiPendulum {
         leaves = at;
       }
     }
-    start.radius = sum_of_radii(start.moving);
+    start.radius = together_[start.moving].radius;
     return start;
   }
 
@@ -374,7 +420,8 @@ class MultiPendulum {
   Change change(const PendulumMemory& memory, const Branch& now, int s) const noexcept {
     double nearest = infinite;
     for (int k = 0; k < count(); ++k)
-      nearest = std::min(nearest, std::min(distance_to_join(memory, now, k, s), distance_to_stop(memory, now, k, s)));
+      nearest = std::min(
+          nearest, now.moving & bit(k) ? distance_to_stop(memory, now, k, s) : distance_to_join(memory, now, k, s));
     if (!(nearest < infinite)) return {infinite, false};
     unsigned stop = stopped(memory, s);
     if ((stop | now.moving) == all())
@@ -396,7 +443,7 @@ class MultiPendulum {
 
   // Move over a distance, and change what lies within `reach`.
   void shift(PendulumMemory& memory, const Branch& now, int s, double distance, double reach) const noexcept {
-    double force = now.force + (now.radius < infinite ? distance / now.radius : 0);
+    double force = force_beyond(now, distance);
     unsigned moving = now.moving, stops = 0;
     for (int k = 0; k < count(); ++k) {
       if (distance_to_join(memory, now, k, s) <= reach) {
@@ -427,10 +474,18 @@ class MultiPendulum {
 
   Piece::Line line(const PendulumMemory& memory, int s) const noexcept {
     const Branch now = branch(memory, s);
-    double friction = 0;
-    for (int k = 0; k < count(); ++k)
-      if (const double part = share_of(now.radius, now.moving, k); part > 0) friction += part * mu_of(k);
-    return {standard_gravity * now.force, standard_gravity / now.radius, standard_gravity * friction};
+    const Together& moving = together_[now.moving];
+    return {standard_gravity * now.force, moving.slope, moving.friction};
+  }
+
+  Together of_moving(unsigned moving) const noexcept {
+    const double radius = sum_of_radii(moving);
+    double friction = 0, stops_at = infinite;
+    for (int k = 0; k < count(); ++k) {
+      if (const double part = share_of(radius, moving, k); part > 0) friction += part * mu_of(k);
+      if (moving & bit(k)) stops_at = std::min(stops_at, capacity(k) / this->radius(k) + mu_of(k));
+    }
+    return {radius, radius > 0 ? 1 / radius : 0, standard_gravity / radius, standard_gravity * friction, stops_at};
   }
 
   // Surface of a ring, counted from inside, in the lower (0) or upper (1) half.
@@ -453,6 +508,8 @@ class MultiPendulum {
   double restitution_;
   bool nested_;
   std::vector<Element> elements_;
+  std::vector<Together> together_;  // of each set of elements that may move, by its bits
+  double push_ = 0;                 // [m/s^2]
 };
 
 inline void MultiPendulum::check() const {

@@ -43,35 +43,10 @@ struct Orientations {
 
 namespace detail {
 
-/// Whether a law resists equally in both directions, as far as is known.
-template <FrictionLaw Law>
-bool resists_alike(const Law& law) {
-  if constexpr (requires { law.isotropic(); })
-    return law.isotropic();
-  else
-    return SymmetricLaw<Law>;
-}
-template <class Law>
-bool resists_alike(const StaticKinetic<Law>& law) {
-  return resists_alike(law.sliding()) && equal(law.static_forward(), law.static_backward());
-}
-
 Orientations orientations(const SweepSlider& slider, bool mirrored, const GroundMotion& station,
                           std::span<const double> degrees, const OrientationsOptions& options);
 
 }  // namespace detail
-
-/// Whether the response to -n(t) is known to be minus the response to n(t): the law is equal in both directions, and so
-/// are the stops; the ground is level and the slider slides both ways. False of a `FunctionLaw`, which may be anything.
-template <FrictionLaw Law>
-bool mirrors(const Slider<Law>& slider) {
-  const Mounting& on = slider.mounting();
-  return detail::equal(on.slope_degrees, 0) && !on.one_way && detail::equal(on.stops.forward(), on.stops.backward()) &&
-         detail::resists_alike(slider.law());
-}
-inline bool mirrors(const AnySlider& slider) {
-  return std::visit([](const auto& one) { return mirrors(one); }, slider);
-}
 
 /// Integrate a slider on one axis along each of several horizontal directions of a station, from rest at x = 0: at each
 /// angle as `integrate` does under `rotated(station, angle)`, with the same bits.

@@ -30,6 +30,8 @@ struct Departure {
 /// Makes the flows of a slider, and knows the forces on it:
 ///
 ///     law_now(state, weight)            // the law in x and speed that applies now, under a weight N+/g
+///     law_toward(direction, state, weight)
+///                                       // the same, for a motion in one direction only
 ///     pull(x, weight), drag(speed)      // forces of spring and damper, per unit mass [m/s^2]
 ///     push()                            // the largest acceleration that springs in the law give under the weight
 ///     flow(direction, state, start, duration)
@@ -40,6 +42,8 @@ struct Departure {
 ///                                       // as SegmentLoad, with the net load and the acceleration at that time. A
 ///                                       // memory that changes at rest then has its value at the departure, or at the
 ///                                       // end of the segment
+///     surely_ahead(state)               // a distance in the direction of the mode, a little less than `ahead` [m];
+///                                       // `slid_surely(state, distance)` is `slid` over less than that
 ///     remember(flow, time, state), slid(state, distance)
 ///                                       // update the memory of the law after a part of a flow
 ///     friction_work(slide, leg, state)  // work against friction during a leg [m^2/s^2]
@@ -75,6 +79,14 @@ class LawFlows {
   decltype(auto) law_now(const AnyState& state, double weight) const {
     return law_at(law_, state, weight);
   }
+  /// The same for a motion in one direction only.
+  template <class AnyState>
+  decltype(auto) law_toward(Direction direction, const AnyState& state, double weight) const {
+    if constexpr (requires { law_.toward(state, direction); })
+      return law_.toward(state, direction);
+    else
+      return law_now(state, weight);
+  }
 
   template <class Load, class Bounds, class AnyState>
   [[gnu::always_inline]] Departure departure(const Load& load, const Bounds&, const AnyState& state, double net,
@@ -104,6 +116,22 @@ class LawFlows {
   double ahead(const AnyState& state, Direction direction) const {
     if constexpr (MemoryLaw<Law>) return law_.ahead(state, direction);
     return never;
+  }
+  /// A distance over which `law_now` applies for certain, in the direction of the mode [m].
+  template <class AnyState>
+  double surely_ahead(const AnyState& state) const {
+    if constexpr (requires { law_.surely_ahead(state); })
+      return law_.surely_ahead(state);
+    else
+      return (1 - 0x1p-40) * ahead(state, direction_of(state.mode));
+  }
+  /// Updates the memory of the law after less than that distance.
+  template <class AnyState>
+  void slid_surely(AnyState& state, double distance) const {
+    if constexpr (requires { law_.slide_surely(state, distance); })
+      law_.slide_surely(state, distance);
+    else
+      slid(state, distance);
   }
   template <class AnyState>
   void pass(AnyState& state, Direction direction) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
 #include <limits>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include "stickslip/sliding/detail/bounds.hpp"
 #include "stickslip/sliding/detail/load.hpp"
 #include "stickslip/sliding/detail/loop.hpp"
+#include "stickslip/sliding/detail/one_step.hpp"
 #include "stickslip/sliding/detail/system.hpp"
 #include "stickslip/sliding/observer.hpp"
 #include "stickslip/state.hpp"
@@ -112,8 +114,9 @@ class Axis {
     const Direction direction = direction_of(state_.mode);
     const double load = net_ + pull(), speed = std::abs(state_.velocity);
     const double begins = std::exchange(departs_, false) ? acceleration_ : acceleration(direction);
-    const auto start = forces_.slip(sign(direction), speed, begins, std::exchange(rise_, 0.0), load, left_,
-                                    [&] { return resist(law_now(), state_.displacement, speed, direction); });
+    const auto start = forces_.slip(sign(direction), speed, begins, std::exchange(rise_, 0.0), load, left_, [&] {
+      return resist(law_toward(direction), state_.displacement, speed, direction);
+    });
     using Slide =
         AxisSlide<std::remove_const_t<decltype(start)>, decltype(flows_.flow(direction, state_, start, left_))>;
     return Slide{direction, load, left_, start, flows_.flow(direction, state_, start, left_)};
@@ -206,6 +209,9 @@ class Axis {
 
  private:
   decltype(auto) law_now() const { return flows_.law_now(state_, forces_.weight(left_)); }
+  decltype(auto) law_toward(Direction direction) const {
+    return flows_.law_toward(direction, state_, forces_.weight(left_));
+  }
   double weigh(double level) const { return Forces::weigh(forces_.weight(left_), level); }
   double pull() const { return flows_.pull(state_.displacement, forces_.weight(left_)); }
 
@@ -220,7 +226,7 @@ class Axis {
   // Net acceleration in the direction of sliding.
   double acceleration(Direction direction) const {
     const double speed = std::abs(state_.velocity);
-    return sign(direction) * net_ - weigh(resist(law_now(), state_.displacement, speed, direction)) -
+    return sign(direction) * net_ - weigh(resist(law_toward(direction), state_.displacement, speed, direction)) -
            flows_.drag(speed);
   }
 
@@ -291,6 +297,9 @@ template <FlowMaker Flows, class Segment, class Place, MotionObserver Observer, 
                                            const Limits& limits = {}) {
   const auto& forces = load_of(segment);
   if (!(forces.duration > 0)) return;
+  if constexpr (!Limits::bounded && std::same_as<std::remove_cvref_t<decltype(forces)>, LinearLoad> &&
+                FlowsOnSprings<Flows>)
+    if (pass_in_one_step(flows, forces, limits, state, observer)) return;
   Axis<Flows, std::remove_cvref_t<decltype(forces)>, Place, Limits> slider(flows, forces, state, limits);
   advance(slider, observer);
 }

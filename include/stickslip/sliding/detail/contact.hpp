@@ -12,6 +12,8 @@
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/sliding/detail/axis.hpp"
+#include "stickslip/sliding/detail/bounds.hpp"
+#include "stickslip/sliding/detail/one_step.hpp"
 #include "stickslip/state.hpp"
 #include "stickslip/units.hpp"
 
@@ -155,6 +157,16 @@ template <FlowMaker Flows, class Place, MotionObserver Observer>
   };
   advance_in_contact(segment, contact, state, move, land,
                      [&](EventKind kind, double time) { observer.event(kind, time, State(state)); });
+}
+
+/// `pass_in_one_step` under a load and a normal force: only where that is the weight.
+template <FlowsOnSprings Flows, MotionObserver Observer>
+bool pass_in_one_step(const Flows& flows, const LoadSegment& segment, const Bounds& bounds, State& state,
+                      Observer& observer) {
+  return !state.in_flight && equal(segment.normal_start, standard_gravity) &&
+         equal(segment.normal_end, standard_gravity) &&
+         pass_in_one_step(flows, LinearLoad{segment.duration, -segment.load_start, -segment.load_end}, bounds, state,
+                          observer);
 }
 
 /// The event loop over any segment. If the slider stays on the ground and cannot reach a stop, it checks for neither.

@@ -66,6 +66,36 @@ class ToSink {
 template <class Flows>
 inline constexpr bool is_cheap = Flows::in_closed_form && (form_of<typename Flows::Law> == Form::constant);
 
+/// Whether segments of a law are passed in one step, where they hold no event. The event loop for the others is apart
+/// and knows no type of sink: it is compiled once.
+template <class Law>
+inline constexpr bool passes_in_one_step = MemoryLaw<Law>&& form_of<Law> == Form::linear;
+
+template <class Flows>
+[[gnu::noinline]] void advance_apart(const Flows& flows, const Segment& segment, State& state, Sink& sink) {
+  ToSink<Sink> observer(sink);
+  advance(flows, segment, state, observer);
+}
+template <class Flows>
+[[gnu::noinline]] void advance_apart(const Flows& flows, const LoadSegment& segment, const Bounds& bounds,
+                                     Contact contact, State& state, Sink& sink) {
+  ToSink<Sink> observer(sink);
+  advance(flows, segment, bounds, contact, state, observer);
+}
+template <class Flows, class Observer>
+[[gnu::always_inline]] inline void advance_in_steps(const Flows& flows, const Segment& segment, State& state,
+                                                    Observer& observer, Sink& sink) {
+  if (!pass_in_one_step(flows, load_of(segment), Unbounded{}, state, observer))
+    advance_apart(flows, segment, state, sink);
+}
+template <class Flows, class Observer>
+[[gnu::always_inline]] inline void advance_in_steps(const Flows& flows, const LoadSegment& segment,
+                                                    const Bounds& bounds, Contact contact, State& state,
+                                                    Observer& observer, Sink& sink) {
+  if (!pass_in_one_step(flows, segment, bounds, state, observer))
+    advance_apart(flows, segment, bounds, contact, state, sink);
+}
+
 /// Move a state through all segments.
 /// @param go  `go(segment, state, observer)` moves it through one
 /// @tparam AnySegments, AnySink  Segments and Sink, or final classes of them, whose functions are then inlined
@@ -159,9 +189,13 @@ class EngineOf final : public Engine {
 template <FrictionLaw Law>
 void EngineOf<Law>::move(Segments<Segment>& segments, double usual_duration, State& state, Sink& sink) const {
   with_flows(slider_, false, usual_duration, [&]<class Flows>(const Flows& flows) {
-    move_as<Flows, typename Flows::Place>(
-        segments, state, sink,
-        [&flows](const Segment& segment, auto& place, auto& observer) { advance(flows, segment, place, observer); });
+    move_as<Flows, typename Flows::Place>(segments, state, sink,
+                                          [&flows, &sink](const Segment& segment, auto& place, auto& observer) {
+                                            if constexpr (passes_in_one_step<Law>)
+                                              advance_in_steps(flows, segment, place, observer, sink);
+                                            else
+                                              advance(flows, segment, place, observer);
+                                          });
   });
 }
 
@@ -170,10 +204,14 @@ void EngineOf<Law>::move(Segments<LoadSegment>& segments, double usual_duration,
                          Sink& sink) const {
   const Bounds bounds{mounting().stops, mounting().one_way};
   with_flows(slider_, true, usual_duration, [&]<class Flows>(const Flows& flows) {
-    move_as<Flows, StateOf<Law>>(segments, state, sink,
-                                 [&flows, bounds, contact](const LoadSegment& segment, auto& place, auto& observer) {
-                                   advance(flows, segment, bounds, contact, place, observer);
-                                 });
+    move_as<Flows, StateOf<Law>>(
+        segments, state, sink,
+        [&flows, &sink, bounds, contact](const LoadSegment& segment, auto& place, auto& observer) {
+          if constexpr (passes_in_one_step<Law>)
+            advance_in_steps(flows, segment, bounds, contact, place, observer, sink);
+          else
+            advance(flows, segment, bounds, contact, place, observer);
+        });
   });
 }
 
@@ -214,10 +252,14 @@ void EngineOf<Law>::record_any(const GroundMotion& motion, State& state, AnySink
                      [&](const auto& flows) { record_block(flows, motion, state, sink, histories); });
   } else {
     SampledSegments segments(GroundMotion::Pieces(motion), motion.segments(), *this, sink, histories);
-    move_any<BareState>(
+    move_any<StateOf<Law>>(
         segments, false, motion.dt(), state, sink,
-        [](const auto& flows, const Segment& segment, auto& place, auto& observer)
-            __attribute__((always_inline)) { advance(flows, segment, place, observer); },
+        [&sink](const auto& flows, const Segment& segment, auto& place, auto& observer) __attribute__((always_inline)) {
+          if constexpr (passes_in_one_step<Law>)
+            advance_in_steps(flows, segment, place, observer, sink);
+          else
+            advance(flows, segment, place, observer);
+        },
         [&] { move(segments, motion.dt(), state, sink); });
   }
 }
@@ -230,8 +272,13 @@ void EngineOf<Law>::record_any(const GroundMotion& motion, Contact contact, Stat
   const bool weighed = motion.has_vertical() || mounting().slope_degrees > 0;
   move_any<StateOf<Law>>(
       segments, weighed, motion.dt(), state, sink,
-      [ bounds, contact ](const auto& flows, const LoadSegment& segment, auto& place, auto& observer)
-          __attribute__((always_inline)) { advance(flows, segment, bounds, contact, place, observer); },
+      [ bounds, contact, &sink ](const auto& flows, const LoadSegment& segment, auto& place, auto& observer)
+          __attribute__((always_inline)) {
+            if constexpr (passes_in_one_step<Law>)
+              advance_in_steps(flows, segment, bounds, contact, place, observer, sink);
+            else
+              advance(flows, segment, bounds, contact, place, observer);
+          },
       [&] { move(segments, motion.dt(), contact, state, sink); });
 }
 /// Where the flows are cheap, with segments and sink inlined into the event loop; otherwise as for any.
@@ -240,11 +287,11 @@ template <class Place, class AnySegments, class AnySink, class Go, class Else>
 void EngineOf<Law>::move_any(AnySegments& segments, [[maybe_unused]] bool weighed,
                              [[maybe_unused]] double usual_duration, State& state, AnySink& sink,
                              [[maybe_unused]] Go&& go, Else&& otherwise) const {
-  if constexpr (form_of<Law> != Form::constant) {
+  if constexpr (form_of<Law> != Form::constant && !passes_in_one_step<Law>) {
     otherwise();
   } else {
     with_flows(slider_, weighed, usual_duration, [&]<class Flows>(const Flows& flows) {
-      if constexpr (is_cheap<Flows>) {
+      if constexpr (is_cheap<Flows> || passes_in_one_step<Law>) {
         Place moving(state);
         move_inlined(
             segments, moving,

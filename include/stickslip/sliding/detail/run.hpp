@@ -22,7 +22,8 @@ namespace stickslip::detail {
 
 /// Where the response at the samples is written.
 struct HistorySpans : HistorySpansOf<double> {
-  void keep(std::size_t sample, const BareState& state) const noexcept {
+  template <class Place>
+  void keep(std::size_t sample, const Place& state) const noexcept {
     displacement[sample] = state.displacement;
     velocity[sample] = state.velocity;
   }
