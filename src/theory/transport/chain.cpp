@@ -221,7 +221,8 @@ Chain::Speeds Chain::speeds(const Vector& p, std::span<const double> sizes) cons
       }
       const bool turned = to.speed < 0 && !mirrored();
       const Panels::Stencil in_v = (turned ? backward : forward).at(std::abs(to.speed));
-      for (std::size_t k = 0; k <= v_.degree(); ++k) (turned ? back : ahead)[index(in_v.first + k)] += part * in_v.weights[k];
+      for (std::size_t k = 0; k <= v_.degree(); ++k)
+        (turned ? back : ahead)[index(in_v.first + k)] += part * in_v.weights[k];
     });
   }
   if (mirrored()) back = ahead = ahead / 2;

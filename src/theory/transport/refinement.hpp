@@ -127,7 +127,8 @@ struct Accuracy {
   double tolerance;                  ///< relative
   std::vector<Eigen::Index> judged;  ///< the figures whose errors must be below it
   std::size_t levels = 4;            ///< of refinement, at most
-  std::vector<Eigen::Index> slow{};  ///< probabilities of rest, or near it, whose error is not of second order in the step
+  std::vector<Eigen::Index>
+      slow{};  ///< probabilities of rest, or near it, whose error is not of second order in the step
 };
 
 struct Refined {

@@ -516,24 +516,22 @@ VelocityDistribution Transport::velocity(const AnySlider& slider, const Transpor
   Accuracy accuracy{.tolerance = tolerance_, .judged = {}, .levels = 1, .slow = {1}};
   for (Eigen::Index i = 2; problem.pulses() && i < static_cast<Eigen::Index>(2 + 2 * count); ++i)
     accuracy.slow.push_back(i);
-  const Refined refined =
-      refine(problem, window, step, accuracy,
-             [&, first = step, last = steps](const Chain& chain) {
-               if (chain.pulses()) return under_pulses(chain);
-               const auto parts = static_cast<std::size_t>(std::lround(first / chain.step()));
-               const Chain::Vector p = weights_from_rest(chain, last * parts - chain.steps_to_below(), progress);
-               Figures figures = Figures::Zero(2 + 2 * count);
-               figures[0] = backward ? chain.below(p, 0, false) : 0;
-               figures[1] = chain.below(p, 0, true) - figures[0];
-               for (std::size_t i = 0; i < count; ++i) {
-                 const auto at = static_cast<Eigen::Index>(2 + i), opposite = at + static_cast<Eigen::Index>(count);
-                 if (progress) progress();
-                 figures[at] = 1 - chain.below(p, sizes[i], true);
-                 if (mirrored) figures[at] = (figures[at] + chain.below(p, -sizes[i], false)) / 2;
-                 if (backward) figures[opposite] = mirrored ? figures[at] : chain.below(p, -sizes[i], true);
-               }
-               return figures;
-             });
+  const Refined refined = refine(problem, window, step, accuracy, [&, first = step, last = steps](const Chain& chain) {
+    if (chain.pulses()) return under_pulses(chain);
+    const auto parts = static_cast<std::size_t>(std::lround(first / chain.step()));
+    const Chain::Vector p = weights_from_rest(chain, last * parts - chain.steps_to_below(), progress);
+    Figures figures = Figures::Zero(2 + 2 * count);
+    figures[0] = backward ? chain.below(p, 0, false) : 0;
+    figures[1] = chain.below(p, 0, true) - figures[0];
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto at = static_cast<Eigen::Index>(2 + i), opposite = at + static_cast<Eigen::Index>(count);
+      if (progress) progress();
+      figures[at] = 1 - chain.below(p, sizes[i], true);
+      if (mirrored) figures[at] = (figures[at] + chain.below(p, -sizes[i], false)) / 2;
+      if (backward) figures[opposite] = mirrored ? figures[at] : chain.below(p, -sizes[i], true);
+    }
+    return figures;
+  });
   detail::VelocityTable table;
   const double atom = table.atom = problem.white() && !(problem.held() > 0) ? 0 : refined.value[1];
   double error = 0;
