@@ -468,9 +468,10 @@ DisplacementDistribution Transport::displacement(const AnySlider& slider, const 
   for (std::size_t i = before; i < points.size(); ++i) add(points[i], 1 - found(i) - resting.value, error(i));
   table.below.front() = 0;
   table.below.back() = 1 - resting.value;
-  // Within the two narrowest panels the law is only known to lie between its values at 0 and at their end.
+  // Where some have not slipped, others have slipped by next to nothing, and within the two narrowest panels the law is
+  // only known to lie between its values at 0 and at their end.
   constexpr std::size_t unresolved = 4;
-  for (std::size_t k = 1; k <= unresolved; ++k) {
+  for (std::size_t k = 1; k <= unresolved && resting.value > 1e-3; ++k) {
     if (both) table.error[before - k] += table.below[before] - table.below[before - unresolved - 1];
     table.error[before + k] += table.below[before + unresolved + 1] - table.below[before];
   }
