@@ -11,6 +11,7 @@
 
 #include "numerics/fftw_plan.hpp"
 #include "numerics/monotone_cubic.hpp"
+#include "stickslip/base/equal.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/numerics/root.hpp"
 
@@ -96,6 +97,7 @@ Slips gamma_slips(double count, const std::array<double, 4>& moments) {
 namespace stickslip::theory {
 namespace {
 
+using detail::equal;
 using detail::require;
 
 constexpr std::size_t nodes = DisplacementDistribution::nodes;
@@ -221,6 +223,7 @@ double DisplacementDistribution::error() const noexcept {
 double DisplacementDistribution::error_at(double x) const {
   require(!std::isnan(x), "DisplacementDistribution: x must be a number", x, "m");
   if (table_.error.empty()) return 0;
+  if (x < table_.displacement.front() && equal(table_.displacement.front(), 0)) return 0;  // it slides one way
   const auto next = std::ranges::lower_bound(table_.displacement, x);
   const auto i = static_cast<std::size_t>(std::min(next, table_.displacement.end() - 1) - table_.displacement.begin());
   return std::max(table_.error[i], table_.error[i > 0 ? i - 1 : 0]);

@@ -114,6 +114,23 @@ TEST_CASE("the displacement of a block under strong white noise is nearly that o
     CHECK(d.cdf(z * sd) == Approx(std::erfc(-z / std::sqrt(2)) / 2).margin(2e-3));
 }
 
+TEST_CASE("errors cancel in differences of predictions") {
+  // R = (a^2 / wg^3) f(S0 wg / a^2): d ln R / d ln a = 2 - 2 d ln R / d ln S0. Under white noise -4.
+  const Transport theory(0.1);
+  const auto growth = [&](double level, double rms) {
+    return std::log(theory.stationary(Slider(Coulomb(level)), kanai_tajimi(0.5, rms)).growth_rate.value);
+  };
+  constexpr double part = 0.01;
+  const double width = std::log1p(part) - std::log1p(-part);
+  const double by_level = (growth(1 + part, 0.8) - growth(1 - part, 0.8)) / width;
+  const double by_rms = (growth(1, 0.8 * (1 + part)) - growth(1, 0.8 * (1 - part))) / width;
+  CHECK(by_level == Approx(2 - by_rms).epsilon(2e-4));
+  const auto white = [&](double level) {
+    return std::log(theory.stationary(Slider(Coulomb(level)), theory::TwoStateNoise(1)).growth_rate.value);
+  };
+  CHECK((white(1 + part) - white(1 - part)) / width == Approx(-4).epsilon(1e-6));
+}
+
 TEST_CASE("panels whose functions may jump have two nodes at the edge") {
   const detail::Panels panels({-1, 0, 1}, 3, {0});
   CHECK(panels.size() == 8);
