@@ -41,6 +41,12 @@ def spring_name(frequency: float) -> str:
     return f"{frequency:.2g}" if frequency else "none"
 
 
+def level_on(slope: float) -> float:
+    """The slip level of a block that a ground acceleration of 1 m/s^2 just moves downhill."""
+    s, c = math.sin(math.radians(slope)), math.cos(math.radians(slope))
+    return (c + ss.STANDARD_GRAVITY * s) / (c - s / ss.STANDARD_GRAVITY)
+
+
 @dataclass(frozen=True)
 class Setting:
     """A block or an isolated floor in the units of its level a and the ground's frequency wg."""
@@ -51,11 +57,14 @@ class Setting:
     frequency: float = 0.0  # of the spring over wg
     content: bool = True  # of the ground at zero frequency
     law: str = "Coulomb"
+    slope: float = 0.0  # degrees; a is then the lower level, of the ground acceleration
 
     @property
     def slider(self) -> ss.Slider:
         law = LAWS[self.law] or ss.Coulomb(slip_level=1.0, backward=self.backward)
-        return ss.Slider(law, natural_frequency=self.frequency or None)
+        if self.slope:
+            law = ss.Coulomb(slip_level=level_on(self.slope))
+        return ss.Slider(law, natural_frequency=self.frequency or None, slope_degrees=self.slope)
 
     @property
     def filter(self) -> ss.theory.ShapingFilter:
@@ -75,6 +84,8 @@ class Setting:
     def name(self) -> str:
         ground = "" if self.content else ", none at 0"
         law = self.law if LAWS[self.law] else level_name(self.backward)
+        if self.slope:
+            law = f"slope of {self.slope:g} degrees"
         spring = spring_name(self.frequency)
         return f"{self.damping:.2g}{ground} | {self.strength:.2g} | {law} | {spring}"
 
@@ -107,6 +118,9 @@ OTHERS = [
     Setting(0.6, 3, content=False),
     Setting(0.6, 1.5, backward=1.5, content=False),
     Setting(0.6, 1.5, backward=math.inf, content=False),
+    Setting(0.6, 1, slope=5),
+    Setting(0.4, 3, slope=20),
+    Setting(0.4, 2, slope=5, frequency=0.5),
 ]
 
 
@@ -242,7 +256,7 @@ def beside(
     for statistic in ("displacement_variance", "velocity_variance"):
         for k in (0, 1):
             add(statistic, k)
-    if setting.backward != 1:
+    if setting.backward != 1 or getattr(setting, "slope", 0):
         add("displacement_mean", 1)
     else:
         cells.append("")

@@ -7,8 +7,11 @@
 #include <numbers>
 #include <vector>
 
+#include "stickslip/ensemble/run.hpp"
+#include "stickslip/excitation/gaussian.hpp"
 #include "stickslip/theory/white_noise.hpp"
 #include "theory/transport/chain.hpp"
+#include "theory/transport/held_motion.hpp"
 #include "theory/transport/load_grid.hpp"
 #include "theory/transport/panels.hpp"
 
@@ -268,6 +271,82 @@ TEST_CASE("a level that the load never reaches does not matter") {
   CHECK(high.displacement_variance.value[0] == Approx(one_way.displacement_variance.value[0]).epsilon(1e-4));
 }
 
+TEST_CASE("a one-way mounting is an infinite backward level") {
+  const ShapingFilter filter = kanai_tajimi(0.6, 1.0);
+  const std::vector<double> times{3, 10};
+  const double inf = std::numeric_limits<double>::infinity();
+  const Mounting one_way{.one_way = true};
+  const auto same = [&](const AnySlider& mounted, const AnySlider& infinite,
+                        const theory::TransportExcitation& excitation) {
+    const auto one = Transport(0.1).predict(mounted, excitation, times);
+    const auto other = Transport(0.1).predict(infinite, excitation, times);
+    CHECK(one.displacement_mean.value[1] > 0);
+    for (Estimates Moments::*const figure : {&Moments::displacement_mean, &Moments::displacement_variance,
+                                             &Moments::velocity_mean, &Moments::velocity_variance})
+      for (const std::size_t k : {0U, 1U})
+        CHECK((one.*figure).value[k] == Approx((other.*figure).value[k]).epsilon(1e-9));
+  };
+  same(Slider(Coulomb(1.0), one_way), Slider(Coulomb(1.0, inf)), theory::TwoStateNoise(filter));
+  same(Slider(Coulomb(1.0), one_way), Slider(Coulomb(1.0, inf)), theory::TwoStateNoise(1.0));
+  same(Slider(Coulomb(1.0), one_way), Slider(Coulomb(1.0, inf)), PoissonPulses(0.6, 1, 1.1, 10));
+  same(Slider(StaticKinetic<Coulomb>(Coulomb(1.0), 1.2), one_way),
+       Slider(StaticKinetic<Coulomb>(Coulomb(1.0, inf), 1.2, inf)), theory::TwoStateNoise(filter));
+}
+
+TEST_CASE("friction on a slope is the ground acceleration that just moves the slider") {
+  const Mounting slope{.slope_degrees = 20};
+  for (const AnySlider& slider :
+       {AnySlider(Slider(Coulomb::from_friction(0.5), slope)), AnySlider(Slider(Stribeck(6.0, 5.0, 0.2, 1), slope)),
+        AnySlider(Slider(StaticKinetic<Coulomb>(Coulomb::from_friction(0.45), 5.0), slope)),
+        AnySlider(Slider(StaticKinetic<Coulomb>(Coulomb::from_friction(0.45), 5.0),
+                         Mounting{.slope_degrees = 20, .one_way = true}))}) {
+    const detail::HeldMotion motion(slider);
+    const double forward = motion.hold(Direction::forward), backward = motion.hold(Direction::backward);
+    CHECK(backward > forward);
+    CHECK(motion(0, 0, -forward * (1 - 1e-9), 0.1).displacement == 0);
+    CHECK(motion(0, 0, -forward * (1 + 1e-9), 0.1).displacement > 0);
+    if (!std::isfinite(backward)) {
+      CHECK(motion(0, 0, 1e3, 0.1).displacement == 0);
+    } else {
+      CHECK(motion(0, 0, backward * (1 - 1e-9), 0.1).displacement == 0);
+      CHECK(motion(0, 0, backward * (1 + 1e-9), 0.1).displacement < 0);
+    }
+    // Friction while sliding: no acceleration at the load that it resists.
+    CHECK(motion(0, 1e-9, -motion.start(Direction::forward), 1e-6).velocity == Approx(1e-9).epsilon(1e-3));
+    CHECK(!motion.mirrors());
+    if (!motion.breaks_away()) continue;
+    const detail::HeldMotion less = motion.holding_less(0.05);
+    CHECK(less.hold(Direction::forward) == Approx(forward - 0.05).epsilon(1e-12));
+    CHECK((!std::isfinite(backward) || less.hold(Direction::backward) == Approx(backward - 0.05).epsilon(1e-12)));
+    CHECK(less.start(Direction::forward) == Approx(motion.start(Direction::forward)).epsilon(1e-12));
+  }
+  // Too rough to slide backward, however large the load.
+  CHECK(!std::isfinite(detail::HeldMotion(Slider(Coulomb::from_friction(1.1), Mounting{.slope_degrees = 45}))
+                           .hold(Direction::backward)));
+}
+
+TEST_CASE("a slider on a slope moves as an ensemble does", "[long]") {
+  // A slope of 20 degrees: slip levels of 1.1 and 10 m/s^2. 20,000 members; three standard errors.
+  const Slider slider(Coulomb(4.9), Mounting{.slope_degrees = 20});
+  const double rms = 1.2, zeta = 0.6, dt = 0.05;
+  const ShapingFilter filter = kanai_tajimi(zeta, rms);
+  GaussianOptions options;
+  options.random_amplitudes = options.zero_frequency = true;
+  options.period = 1604;
+  const GaussianExcitation noise(Spectrum::kanai_tajimi(filter.s0(), 1, zeta), dt, 401, options);
+  EnsembleOptions many;
+  many.members = 20'000, many.seed = 1, many.dt = 10;
+  const Ensemble ensemble = run_ensemble(slider, noise, many);
+  const auto found = Transport(0.02).predict(slider, filter, std::vector<double>{10, 20});
+  const auto near = [&](const Estimates& is, const Estimates& simulated) {
+    for (const std::size_t k : {0U, 1U})
+      CHECK(std::abs(is.value[k] - simulated.value[k + 1]) <= is.error[k] + 3 * simulated.error[k + 1]);
+  };
+  near(found.displacement_mean, ensemble.displacement_mean());
+  near(found.displacement_variance, ensemble.displacement_variance());
+  near(found.velocity_variance, ensemble.velocity_variance());
+}
+
 TEST_CASE("times far below a step have moments of their own") {
   // At first the load is what it was at the start: E[x'^2] = t^2 E[(|n| - a)+^2], E[x^2] = t^2 / 4 of it.
   const double t = 1e-5, y = 1;
@@ -356,7 +435,14 @@ TEST_CASE("what is not covered is refused with the reason") {
   CHECK_THAT(why(Slider(Coulomb(0.0)), 1.0), Contains("forward slip level must be positive and finite, got 0"));
   CHECK_THAT(why(block, Spectrum::clough_penzien(1, 10, 0.5, 2, 0.5)), Contains("filters of two states"));
   CHECK_THAT(why(block, ShapingFilter(1, {{1, 0, 1, 1, 1}})), Contains("b2 must be 0, got 1"));
-  CHECK_THAT(why(Slider(Coulomb(1.0), Mounting{.one_way = true}), 1.0), Contains("slide both ways"));
+  CHECK_THAT(why(Slider(Coulomb(1.0), Mounting{.stops = Stops(1, 0.5)}), 1.0), Contains("without stops"));
+  const Slider sloped(Coulomb(2.0), Mounting{.slope_degrees = 5});
+  CHECK(theory.covers(sloped, kanai_tajimi(0.5, 1)));
+  CHECK_THAT(why(sloped, 1.0), Contains("white noise lifts a slider off a slope"));
+  CHECK_THAT(why(Slider(Coulomb(8.0), Mounting{.slope_degrees = 30}), kanai_tajimi(0.5, 4)),
+             Contains("at most g / (4.5 tan(slope)) = 3.77"));
+  CHECK_THAT(why(Slider(VelocityDependent(2.0, 0.5, 1.0), sloped.mounting()), kanai_tajimi(0.5, 1)),
+             Contains("least resistance to sliding at any speed must be positive, got -0.3"));
   CHECK_THAT(why(block, kanai_tajimi(0.5, 0.3)), Contains("must be at least 0.35, below which slips are too rare"));
   CHECK_THAT(why(block, kanai_tajimi(0.05, 1)), Contains("damping ratio of the filter must be from 0.1 to 1.5"));
   CHECK_THAT(why(Slider(Coulomb(1.0), 5.1), kanai_tajimi(0.5, 1)), Contains("at most 5 times the frequency"));

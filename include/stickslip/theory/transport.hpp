@@ -157,9 +157,10 @@ class TransportPrediction : public Moments {
 /// are below the tolerance.
 ///
 /// Covers Coulomb friction with equal, unequal and one-way levels, friction that depends on the speed
-/// (`VelocityDependent`, `Stribeck`), and static friction above kinetic; with or without a spring and a damper; under
-/// white noise and noise from a filter of two states, such as Kanai and Tajimi's or one without content at zero
-/// frequency. Casters are covered under white noise, static friction under filtered or held noise.
+/// (`VelocityDependent`, `Stribeck`), and static friction above kinetic; with or without a spring and a damper; with a
+/// one-way mounting; on slopes without vertical motion. White noise, and noise from a filter of two states, such as
+/// Kanai and Tajimi's or one without content at zero frequency. Casters are covered under white noise, static friction
+/// under filtered or held noise, slopes under these and pulses.
 /// The damping ratio of the filter is from 0.1 to 1.5, its rms acceleration at least 0.35 times the lower level at rest
 /// and at most 20 times the least resistance, and the spring at most 5 times as fast as it. Under white noise one level
 /// is at most 10 times the other, or infinite, wn pi S0 / a^2 at least 0.05, and a caster on a spring has
@@ -193,7 +194,9 @@ class Transport {
   }
 
   /// Moments from rest on.
-  /// @param slider  positive levels, which may differ, the backward one also infinite; spring and damper optional.
+  /// @param slider  positive levels, which may differ, the backward one also infinite; spring and damper optional. On a
+  ///                slope the levels are the ground accelerations that just move it, and the rms acceleration is at
+  ///                most g / (4.5 tan(slope)), so that it does not lift off
   ///                Without a spring a caster's growth rate is NaN
   /// @param excitation  noise, stationary from time zero on, or pulses
   /// @param times   [s], finite, at least 0, increasing; under pulses 0 or at least 2 half widths, with

@@ -402,9 +402,10 @@ two steps (under white noise from three to six), and its error is that of the ex
 and windows of the grid are refined. docs/transport.md has the derivation and a table of errors.
 
 Covers Coulomb friction with equal, unequal and one-way levels, friction that depends on the speed (`VelocityDependent`,
-`Stribeck`), and static friction above kinetic; with or without a spring and a damper; under white noise and noise from
-a filter of two states: Kanai and Tajimi's, or one without content at zero frequency. Casters are covered under white
-noise, static friction under filtered or held noise and without a spring. A `GaussianExcitation` stands for its spectrum
+`Stribeck`), and static friction above kinetic; with or without a spring and a damper; with a one-way mounting; on slopes
+without vertical motion. White noise, and noise from a filter of two states: Kanai and Tajimi's, or one without content
+at zero frequency. Casters are covered under white noise, static friction under filtered or held noise and without a
+spring, slopes under filtered or held noise and pulses, with an rms acceleration of at most g / (4.5 tan(slope)). A `GaussianExcitation` stands for its spectrum
 as a continuous Gaussian process, stationary at t = 0, not periodic, with its content at zero frequency; white noise with
 constant, uncorrected interpolation is predicted as sampled.
 

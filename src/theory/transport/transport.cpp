@@ -235,6 +235,14 @@ Transport::Transport(double tolerance) : tolerance_(tolerance) {
 
 namespace {
 
+/// On a slope the normal force depends on the load.
+void check_contact(const detail::HeldMotion& motion, double rms) {
+  require(rms <= motion.lift_off() / 4.5,
+          "Transport: on a slope the rms acceleration must be at most g / (4.5 tan(slope)) = " +
+              detail::shortest(motion.lift_off() / 4.5) + " m/s^2, so that the slider does not lift off",
+          rms, "m/s^2");
+}
+
 /// What of pulses is covered.
 void check_pulses(const detail::HeldMotion& motion, const PoissonPulses& pulses) {
   const PoissonOptions& options = pulses.options();
@@ -258,6 +266,7 @@ void check_pulses(const detail::HeldMotion& motion, const PoissonPulses& pulses)
       "Transport: the rms acceleration of pulses over the lower slip level must be at least 0.25, below which slips "
       "are too rare",
       strength * std::sqrt(2 * arriving));
+  check_contact(motion, std::abs(values[0]) * pulses.sigma() * std::sqrt(std::max(1.0, 2 * arriving)));
   const double turn = motion.natural_frequency() * half_width;
   require(turn <= 3, "Transport: natural_frequency times the half width of a pulse must be at most 3", turn);
 }
@@ -272,9 +281,13 @@ void Transport::check(const AnySlider& slider, const TransportExcitation& excita
   require(motion.start(backward) > 0, "Transport: the backward slip level must be positive", motion.start(backward),
           "m/s^2");
   const double least = motion.least(), wn = motion.natural_frequency();
+  require(least > 0, "Transport: the least resistance to sliding at any speed must be positive", least, "m/s^2");
   if (const auto* pulses = std::get_if<PoissonPulses>(&excitation)) return check_pulses(motion, *pulses);
   const auto& noise = std::get<TwoStateNoise>(excitation);
   if (noise.white()) {
+    if (!(noise.held() > 0) && std::isfinite(motion.lift_off()))
+      throw std::invalid_argument(
+          "Transport: continuous white noise lifts a slider off a slope; covers slopes under filtered noise");
     const double ratio = std::max(motion.start(forward), motion.start(backward)) / least;
     require(ratio <= 10 || !std::isfinite(ratio),
             "Transport: under white noise a level must be at most 10 times the other, or infinite; their ratio", ratio);
@@ -287,6 +300,7 @@ void Transport::check(const AnySlider& slider, const TransportExcitation& excita
             "natural_frequency of at least 3 pi S0 = " +
                 detail::shortest(3 * supply) + " m^2/s^3",
             hold, "m^2/s^3");
+    if (noise.held() > 0) check_contact(motion, std::sqrt(2 * std::numbers::pi * noise.filter().s0() / noise.held()));
     if (motion.breaks_away() && !(noise.held() > 0))
       throw std::invalid_argument(
           "Transport: continuous white noise exceeds any friction at rest at once; give the kinetic law alone");
@@ -307,6 +321,7 @@ void Transport::check(const AnySlider& slider, const TransportExcitation& excita
               detail::shortest(5 * frequency) + " rad/s",
           wn, "rad/s");
   const double rms = detail::FilterStates(noise.filter()).rms;
+  check_contact(motion, rms);
   require(rms / motion.least_hold() >= 0.35,
           "Transport: the rms acceleration over the lower slip level must be at least 0.35, below which slips are too "
           "rare",
