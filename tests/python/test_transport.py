@@ -325,8 +325,8 @@ def test_a_prediction_is_moments_and_a_value():
             "forward slip level must be positive and finite, got 0",
         ),
         (
-            lambda: theory.Transport().predict(ss.Caster(mu=0.1, reach=1), GROUND, [1]),
-            "covers casters under white noise",
+            lambda: theory.Transport().predict(ss.Caster(slip_level=1, reach=0.9), GROUND, [1]),
+            "the reach of a caster must be at least",
         ),
         (
             lambda: theory.Transport().predict(

@@ -41,6 +41,20 @@ std::vector<double> split(const std::vector<double>& edges, double reach) {
   return result;
 }
 
+/// Edges from 0 on, those given among them, for friction that falls off over a reach: panels of one reach, and growing
+/// by about two thirds each.
+std::vector<double> growing(double reach, const std::vector<double>& ends) {
+  std::vector<double> edges;
+  double edge = 0;
+  for (const double end : ends)
+    while (edge < end) {
+      const double width = reach + 0.65 * std::max(edge - reach, 0.0);
+      edge = end - edge < 1.5 * width ? end : edge + width;
+      edges.push_back(edge);
+    }
+  return edges;
+}
+
 }  // namespace
 
 TransportProblem::TransportProblem(const AnySlider& slider, const theory::TransportExcitation& excitation)
@@ -92,8 +106,11 @@ double TransportProblem::ground_velocity() const noexcept {
 }
 
 TransportProblem::Window TransportProblem::free_window(double time) const noexcept {
-  // Its velocity is Gaussian: half of the reach of an exponential distribution suffices.
-  return {std::sqrt(2 * power_ * time * time * time / 3), std::sqrt(2 * power_ * time) / 2};
+  // Its velocity is Gaussian: half of the reach of an exponential distribution suffices. Of the velocity of the ground a
+  // mass keeps what it had at the start.
+  const double ground = 2 * ground_velocity();
+  return {std::hypot(std::sqrt(2 * power_ * time * time * time / 3), ground * time),
+          std::hypot(std::sqrt(2 * power_ * time), ground) / 2};
 }
 
 TransportProblem::Steps TransportProblem::steps_to(double time) const {
@@ -208,12 +225,15 @@ Chain TransportProblem::chain(double step, std::size_t fineness, const Window& w
       parts = {0.2, 0.4, 0.6, 0.75, 0.87, 0.95, 1.0};
     else
       for (double i = 1; i <= panels / 2; ++i) parts.push_back(2 * i / panels);
+    const bool thrifty = filtered_ && std::isfinite(motion_.reach());
+    if (thrifty && wanders() && !std::isfinite(wall) && window.x_panels <= Window().x_panels) parts = {1.0};
+    if (thrifty) parts = growing(motion_.reach() / (std::isfinite(wall) ? wall : end), parts);
     for (const double part : parts) {
       const double edge = part * (std::isfinite(wall) ? wall : end);
       edges.push_back(edge);
       edges.insert(edges.begin(), -edge);
     }
-    x = {split(edges, motion_.reach()), degree};
+    x = {thrifty ? edges : split(edges, motion_.reach()), degree};
   }
   if (pulses_) return {motion_, x, v, batches(step, fineness), step, wall};
   if (!filtered_) return {motion_, x, v, LoadGrid(std::sqrt(2 * pi * s0_ / (held_ > 0 ? held_ : step))), step, wall};

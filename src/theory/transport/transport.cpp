@@ -243,6 +243,25 @@ void check_contact(const detail::HeldMotion& motion, double rms) {
           rms, "m/s^2");
 }
 
+/// What is covered of casters under filtered noise: the range in which their errors were measured.
+void check_caster(const detail::HeldMotion& motion, const ShapingFilter& filter, double frequency, double damping,
+                  double rms) {
+  if (!(filter(0) > 0))
+    throw std::invalid_argument("Transport: covers casters under filtered noise with content at zero frequency");
+  const double level = motion.start(Direction::forward), reach = motion.reach() * frequency * frequency / level;
+  require(reach >= 1,
+          "Transport: under filtered noise the reach of a caster must be at least a / wg^2 = " +
+              detail::shortest(level / (frequency * frequency)) + " m",
+          motion.reach(), "m");
+  require(rms >= 0.699 * level && rms <= 6.01 * level,
+          "Transport: under filtered noise the rms acceleration over the slip level of a caster must be from 0.7 to 6",
+          rms / level);
+  require(damping >= 0.3 && damping <= 0.9,
+          "Transport: with a caster the damping ratio of the filter must be from 0.3 to 0.9", damping);
+  if (motion.natural_frequency() > 0)
+    throw std::invalid_argument("Transport: covers casters under filtered noise without a spring");
+}
+
 /// What of pulses is covered.
 void check_pulses(const detail::HeldMotion& motion, const PoissonPulses& pulses) {
   const PoissonOptions& options = pulses.options();
@@ -283,6 +302,8 @@ void Transport::check(const AnySlider& slider, const TransportExcitation& excita
   const double least = motion.least(), wn = motion.natural_frequency();
   require(least > 0, "Transport: the least resistance to sliding at any speed must be positive", least, "m/s^2");
   if (const auto* pulses = std::get_if<PoissonPulses>(&excitation)) return check_pulses(motion, *pulses);
+  if (std::isfinite(motion.reach()) && std::isfinite(motion.lift_off()))
+    throw std::invalid_argument("Transport: does not cover casters on a slope, which roll away beyond their reach");
   const auto& noise = std::get<TwoStateNoise>(excitation);
   if (noise.white()) {
     if (!(noise.held() > 0) && std::isfinite(motion.lift_off()))
@@ -310,8 +331,6 @@ void Transport::check(const AnySlider& slider, const TransportExcitation& excita
     throw std::invalid_argument(
         "Transport: covers static friction above kinetic without a spring; with one, the load at which the slider "
         "breaks away depends on the displacement");
-  if (std::isfinite(motion.reach()))
-    throw std::invalid_argument("Transport: covers casters under white noise, not under filtered noise");
   const ShapingFilter::Section& section = noise.filter().sections().front();
   const double frequency = std::sqrt(section.d0), damping = section.d1 / (2 * frequency);
   require(damping >= 0.1 && damping <= 1.5, "Transport: the damping ratio of the filter must be from 0.1 to 1.5",
@@ -330,6 +349,7 @@ void Transport::check(const AnySlider& slider, const TransportExcitation& excita
           "Transport: the rms acceleration over the least slip level must be at most 20, above which friction hardly "
           "matters",
           rms / least);
+  if (std::isfinite(motion.reach())) check_caster(motion, noise.filter(), frequency, damping, rms);
 }
 
 TransportPrediction Transport::predict(const AnySlider& slider, const TransportExcitation& excitation,
