@@ -30,6 +30,7 @@ LAWS = {
     "Stribeck 1.3 to 0.8": ss.Stribeck(static=1.3, kinetic=0.8, velocity=0.3, exponent=1),
     "static 1.3": ss.StaticKinetic(ss.Coulomb(slip_level=1.0), static=1.3),
     "static 1.5": ss.StaticKinetic(ss.Coulomb(slip_level=1.0), static=1.5),
+    "static 2": ss.StaticKinetic(ss.Coulomb(slip_level=1.0), static=2.0),
 }
 
 
@@ -130,6 +131,11 @@ OTHERS = [
 
 
 LOOSE = [
+    Setting(0.3, 1.5, law="static 1.5", frequency=1),
+    Setting(0.4, 2, law="static 2", frequency=2),
+    Setting(0.5, 1.2, law="static 1.5", frequency=3),
+    Setting(0.6, 1, law="static 1.5", frequency=0.2),
+    Setting(0.6, 0.8, law="static 1.3", frequency=1),
     Setting(0.6, 1.5, reach=1),
     Setting(0.9, 0.7, reach=1),
     Setting(0.3, 3, reach=3),

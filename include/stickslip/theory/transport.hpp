@@ -166,7 +166,9 @@ class TransportPrediction : public Moments {
 /// is at most 10 times the other, or infinite, wn pi S0 / a^2 at least 0.05, and a caster on a spring has
 /// a reach wn >= 3 pi S0. Under filtered noise a caster has no spring, a reach of at least a / wg^2, and the noise content
 /// at zero frequency, an rms acceleration from 0.7 a to 6 a and a damping ratio of the filter from 0.3 to 0.9, for which
-/// its errors were measured. Static friction without a spring only: where it breaks away depends on the load alone.
+/// its errors were measured. Under filtered noise static friction on a spring needs a tolerance of at least 0.05, and
+/// is equal both ways and at most twice the kinetic one, wn at most 3 wg, the rms acceleration from 0.7 a to 3 a and the
+/// damping ratio of the filter from 0.3 to 0.9.
 ///
 /// Pulses of two equal steps, up and down, with Gaussian amplitudes, are moved to the nodes of a lattice of times, of
 /// one and two slots to a half width Dt; the state of the ground is then the last batches of pulses. The stated error

@@ -360,8 +360,11 @@ Refined refine(const TransportProblem& problem, const TransportProblem::Window& 
     const std::size_t same = problem.white() ? last : first;
     result.error += (with(same, fineness) - with(same, fineness - 1)).cwiseAbs();
     // The linear systems and the quadratures have errors of this size; where the slider breaks away, the load at which
-    // it does.
-    result.error = result.error.cwiseMax((breaks_away ? 5e-3 : 5e-7) * result.value.cwiseAbs());
+    // it does. On a spring that load depends on x, and values jump within a panel.
+    result.error = result.error.cwiseMax((!breaks_away       ? 5e-7
+                                          : problem.sprung() ? 4e-2
+                                                             : 5e-3) *
+                                         result.value.cwiseAbs());
     if (result.within(accuracy)) break;
     if (4 * result.nodes > most_nodes) break;
   }

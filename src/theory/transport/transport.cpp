@@ -262,6 +262,29 @@ void check_caster(const detail::HeldMotion& motion, const ShapingFilter& filter,
     throw std::invalid_argument("Transport: covers casters under filtered noise without a spring");
 }
 
+/// What is covered of static friction on a spring: the range in which its errors were measured.
+void check_static_on_spring(const detail::HeldMotion& motion, double frequency, double damping, double rms,
+                            double tolerance) {
+  const double level = motion.start(Direction::forward), wn = motion.natural_frequency();
+  require(tolerance >= 0.05,
+          "Transport: static friction on a spring needs a tolerance of at least 0.05, its errors are 4 % and more; it",
+          tolerance);
+  require(motion.mirrors() && motion.hold(Direction::forward) <= 2 * level,
+          "Transport: static friction on a spring must be equal both ways and at most twice the kinetic one",
+          motion.hold(Direction::forward), "m/s^2");
+  require(wn <= 3 * frequency,
+          "Transport: with static friction natural_frequency must be at most 3 times the frequency of the filter, " +
+              detail::shortest(3 * frequency) + " rad/s",
+          wn, "rad/s");
+  require(
+      rms >= 0.699 * level && rms <= 3.01 * level,
+      "Transport: with static friction on a spring the rms acceleration over the kinetic level must be from 0.7 to 3",
+      rms / level);
+  require(damping >= 0.3 && damping <= 0.9,
+          "Transport: with static friction on a spring the damping ratio of the filter must be from 0.3 to 0.9",
+          damping);
+}
+
 /// What of pulses is covered.
 void check_pulses(const detail::HeldMotion& motion, const PoissonPulses& pulses) {
   const PoissonOptions& options = pulses.options();
@@ -327,10 +350,6 @@ void Transport::check(const AnySlider& slider, const TransportExcitation& excita
           "Transport: continuous white noise exceeds any friction at rest at once; give the kinetic law alone");
     return;
   }
-  if (motion.breaks_away() && wn > 0)
-    throw std::invalid_argument(
-        "Transport: covers static friction above kinetic without a spring; with one, the load at which the slider "
-        "breaks away depends on the displacement");
   const ShapingFilter::Section& section = noise.filter().sections().front();
   const double frequency = std::sqrt(section.d0), damping = section.d1 / (2 * frequency);
   require(damping >= 0.1 && damping <= 1.5, "Transport: the damping ratio of the filter must be from 0.1 to 1.5",
@@ -350,6 +369,7 @@ void Transport::check(const AnySlider& slider, const TransportExcitation& excita
           "matters",
           rms / least);
   if (std::isfinite(motion.reach())) check_caster(motion, noise.filter(), frequency, damping, rms);
+  if (motion.breaks_away() && wn > 0) check_static_on_spring(motion, frequency, damping, rms, tolerance_);
 }
 
 TransportPrediction Transport::predict(const AnySlider& slider, const TransportExcitation& excitation,
