@@ -30,6 +30,7 @@ LAWS = {
     "Stribeck 1.3 to 0.8": ss.Stribeck(static=1.3, kinetic=0.8, velocity=0.3, exponent=1),
     "static 1.3": ss.StaticKinetic(ss.Coulomb(slip_level=1.0), static=1.3),
     "static 1.5": ss.StaticKinetic(ss.Coulomb(slip_level=1.0), static=1.5),
+    "static 2": ss.StaticKinetic(ss.Coulomb(slip_level=1.0), static=2.0),
 }
 
 
@@ -39,6 +40,12 @@ def level_name(backward: float) -> str:
 
 def spring_name(frequency: float) -> str:
     return f"{frequency:.2g}" if frequency else "none"
+
+
+def level_on(slope: float) -> float:
+    """The slip level of a block that a ground acceleration of 1 m/s^2 just moves downhill."""
+    s, c = math.sin(math.radians(slope)), math.cos(math.radians(slope))
+    return (c + ss.STANDARD_GRAVITY * s) / (c - s / ss.STANDARD_GRAVITY)
 
 
 @dataclass(frozen=True)
@@ -51,11 +58,17 @@ class Setting:
     frequency: float = 0.0  # of the spring over wg
     content: bool = True  # of the ground at zero frequency
     law: str = "Coulomb"
+    reach: float = 0.0  # of a caster, over a / wg^2
+    slope: float = 0.0  # degrees; a is then the lower level, of the ground acceleration
 
     @property
     def slider(self) -> ss.Slider:
         law = LAWS[self.law] or ss.Coulomb(slip_level=1.0, backward=self.backward)
-        return ss.Slider(law, natural_frequency=self.frequency or None)
+        if self.slope:
+            law = ss.Coulomb(slip_level=level_on(self.slope))
+        if self.reach:
+            law = ss.Caster(slip_level=1.0, reach=self.reach)
+        return ss.Slider(law, natural_frequency=self.frequency or None, slope_degrees=self.slope)
 
     @property
     def filter(self) -> ss.theory.ShapingFilter:
@@ -75,6 +88,10 @@ class Setting:
     def name(self) -> str:
         ground = "" if self.content else ", none at 0"
         law = self.law if LAWS[self.law] else level_name(self.backward)
+        if self.slope:
+            law = f"slope of {self.slope:g} degrees"
+        if self.reach:
+            law = f"caster, reach {self.reach:g}"
         spring = spring_name(self.frequency)
         return f"{self.damping:.2g}{ground} | {self.strength:.2g} | {law} | {spring}"
 
@@ -107,6 +124,25 @@ OTHERS = [
     Setting(0.6, 3, content=False),
     Setting(0.6, 1.5, backward=1.5, content=False),
     Setting(0.6, 1.5, backward=math.inf, content=False),
+    Setting(0.6, 1, slope=5),
+    Setting(0.4, 3, slope=20),
+    Setting(0.4, 2, slope=5, frequency=0.5),
+]
+
+
+LOOSE = [
+    Setting(0.3, 1.5, law="static 1.5", frequency=1),
+    Setting(0.4, 2, law="static 2", frequency=2),
+    Setting(0.5, 1.2, law="static 1.5", frequency=3),
+    Setting(0.6, 1, law="static 1.5", frequency=0.2),
+    Setting(0.6, 0.8, law="static 1.3", frequency=1),
+    Setting(0.6, 1.5, reach=1),
+    Setting(0.9, 0.7, reach=1),
+    Setting(0.3, 3, reach=3),
+    Setting(0.4, 0.7, reach=10),
+    Setting(0.6, 6, reach=10),
+    Setting(0.3, 1.5, reach=30),
+    Setting(0.6, 3, reach=100),
 ]
 
 
@@ -242,7 +278,7 @@ def beside(
     for statistic in ("displacement_variance", "velocity_variance"):
         for k in (0, 1):
             add(statistic, k)
-    if setting.backward != 1:
+    if setting.backward != 1 or getattr(setting, "slope", 0):
         add("displacement_mean", 1)
     else:
         cells.append("")
@@ -489,6 +525,10 @@ PULSE_HEADING = (
 PULSE_COVERAGE = (
     "| settings under pulses | values | within the stated error and 3 standard errors |"
 )
+LOOSE_HEADING = (
+    "| damping | rms / a | law, tolerance 0.1 | wn / wg | E x², wg t = 15 | 60 | E x'², 15 | 60 |"
+    " E x, 60 | nodes |"
+)
 COVERAGE = "| settings | values | within the stated error and 3 standard errors |"
 
 
@@ -525,6 +565,7 @@ def main(members: int) -> None:
         table(LAW_HEADING, shown(law_row(law, 20 * members)[0] for law in LAWS_OF_X)),
         coverage(COVERAGE, drawn, loosely, few),
         table(OTHER_HEADING, shown(others)),
+        table(LOOSE_HEADING, shown(row(setting, few, 0.1)[0] for setting in LOOSE)),
         table(CASTER_HEADING, shown(caster_rows())),
         table(DRIFT_HEADING, shown(drift_rows(few))),
         table(PULSE_HEADING, shown(pulses)),

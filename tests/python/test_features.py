@@ -111,7 +111,7 @@ REASONS = {
 }
 THEORY_REASONS = {
     "g": r"depends on the (speed|distance)|static friction|take power series",
-    "h": r"on level ground that slide both ways",
+    "h": r"on level ground that slide both ways|covers sliders without stops",
     "i": r"a spring is not covered|known with a spring",
     "j": r"with a damper",
     "k": r"covers Coulomb friction",
@@ -119,6 +119,7 @@ THEORY_REASONS = {
     "m": r"level must be positive",
     "n": r"exceeds any friction at rest",
     "o": r"laws with memory, nor functions",
+    "p": r"white noise lifts a slider off a slope",
 }
 
 
@@ -383,6 +384,7 @@ SLIDERS = {
     "caster": LAWS["`Caster`"],
     "speed": LAWS["`Stribeck`"],
     "static": LAWS["`StaticKinetic`"],
+    "slope": ss.Slider(ss.Coulomb(mu=0.2), slope_degrees=5),
 }
 
 

@@ -37,6 +37,8 @@ SLOW = pytest.mark.slow
         pytest.param(ss.Slider(LINER, natural_frequency=0.5), 8, marks=SLOW),
         pytest.param(ss.Slider(STRIBECK), 9, marks=SLOW),
         (ss.Slider(ss.StaticKinetic(BLOCK, static=1.3)), 10),
+        pytest.param(ss.Slider(BLOCK, one_way=True), 11, marks=SLOW),
+        (ss.Slider(ss.Coulomb(slip_level=1.9), slope_degrees=5), 12),
     ],
     ids=[
         "block",
@@ -49,10 +51,12 @@ SLOW = pytest.mark.slow
         "liner on a spring",
         "Stribeck",
         "static",
+        "one-way mounting",
+        "slope",
     ],
 )
 def test_moments_are_those_of_simulation(slider, seed):
-    # The stated error, 0.5 % for the simulation's own step, and four standard errors: 10 settings
+    # The stated error, 0.5 % for the simulation's own step, and four standard errors: 12 settings
     # of at most 8 values with a false alarm in 16,000 each, one in 200 for all, were the seed not
     # fixed.
     times = [10.0, 30.0]
@@ -373,8 +377,8 @@ def test_a_prediction_is_moments_and_a_value():
             "forward slip level must be positive and finite, got 0",
         ),
         (
-            lambda: theory.Transport().predict(ss.Caster(mu=0.1, reach=1), GROUND, [1]),
-            "covers casters under white noise",
+            lambda: theory.Transport().predict(ss.Caster(slip_level=1, reach=0.9), GROUND, [1]),
+            "the reach of a caster must be at least",
         ),
         (
             lambda: theory.Transport().predict(

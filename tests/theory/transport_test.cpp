@@ -9,9 +9,12 @@
 #include <numbers>
 #include <vector>
 
+#include "stickslip/ensemble/run.hpp"
+#include "stickslip/excitation/gaussian.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/theory/white_noise.hpp"
 #include "theory/transport/chain.hpp"
+#include "theory/transport/held_motion.hpp"
 #include "theory/transport/load_grid.hpp"
 #include "theory/transport/panels.hpp"
 #include "theory/transport/spline_density.hpp"
@@ -28,6 +31,23 @@ ShapingFilter kanai_tajimi(double zeta, double rms, double frequency = 1) {
   const double s0 = rms * rms * 2 * zeta / (pi * frequency * (1 + 4 * zeta * zeta));
   return ShapingFilter(s0,
                        {{0, 2 * zeta * frequency, frequency * frequency, 2 * zeta * frequency, frequency * frequency}});
+}
+
+/// 20,000 members under Kanai and Tajimi's noise of frequency 1 rad/s, with their moments at 0, the half and the end.
+Ensemble simulated(const AnySlider& slider, const ShapingFilter& filter, double zeta, double dt, double end) {
+  GaussianOptions options;
+  options.random_amplitudes = options.zero_frequency = true;
+  const auto samples = static_cast<std::size_t>(std::lround(end / dt)) + 1;
+  options.period = 4 * samples;
+  EnsembleOptions many;
+  many.members = 20'000, many.seed = 1, many.dt = end / 2;
+  return run_ensemble(slider, GaussianExcitation(Spectrum::kanai_tajimi(filter.s0(), 1, zeta), dt, samples, options),
+                      many);
+}
+
+/// The stated error and three standard errors cover the difference.
+void near(const Estimates& is, const Estimates& ensemble, std::size_t k) {
+  CHECK(std::abs(is.value[k] - ensemble.value[k + 1]) <= is.error[k] + 3 * ensemble.error[k + 1]);
 }
 
 }  // namespace
@@ -354,6 +374,74 @@ TEST_CASE("a level that the load never reaches does not matter") {
   CHECK(high.displacement_variance.value[0] == Approx(one_way.displacement_variance.value[0]).epsilon(1e-4));
 }
 
+TEST_CASE("a one-way mounting is an infinite backward level") {
+  const ShapingFilter filter = kanai_tajimi(0.6, 1.0);
+  const std::vector<double> times{3, 10};
+  const double inf = std::numeric_limits<double>::infinity();
+  const Mounting one_way{.one_way = true};
+  const auto same = [&](const AnySlider& mounted, const AnySlider& infinite,
+                        const theory::TransportExcitation& excitation) {
+    const auto one = Transport(0.1).predict(mounted, excitation, times);
+    const auto other = Transport(0.1).predict(infinite, excitation, times);
+    CHECK(one.displacement_mean.value[1] > 0);
+    for (Estimates Moments::*const figure : {&Moments::displacement_mean, &Moments::displacement_variance,
+                                             &Moments::velocity_mean, &Moments::velocity_variance})
+      for (const std::size_t k : {0U, 1U})
+        CHECK((one.*figure).value[k] == Approx((other.*figure).value[k]).epsilon(1e-9));
+  };
+  same(Slider(Coulomb(1.0), one_way), Slider(Coulomb(1.0, inf)), theory::TwoStateNoise(filter));
+  same(Slider(Coulomb(1.0), one_way), Slider(Coulomb(1.0, inf)), theory::TwoStateNoise(1.0));
+  same(Slider(Coulomb(1.0), one_way), Slider(Coulomb(1.0, inf)), PoissonPulses(0.6, 1, 1.1, 10));
+  same(Slider(StaticKinetic<Coulomb>(Coulomb(1.0), 1.2), one_way),
+       Slider(StaticKinetic<Coulomb>(Coulomb(1.0, inf), 1.2, inf)), theory::TwoStateNoise(filter));
+}
+
+TEST_CASE("friction on a slope is the ground acceleration that just moves the slider") {
+  const Mounting slope{.slope_degrees = 20};
+  for (const AnySlider& slider :
+       {AnySlider(Slider(Coulomb::from_friction(0.5), slope)), AnySlider(Slider(Stribeck(6.0, 5.0, 0.2, 1), slope)),
+        AnySlider(Slider(StaticKinetic<Coulomb>(Coulomb::from_friction(0.45), 5.0), slope)),
+        AnySlider(Slider(StaticKinetic<Coulomb>(Coulomb::from_friction(0.45), 5.0),
+                         Mounting{.slope_degrees = 20, .one_way = true}))}) {
+    const detail::HeldMotion motion(slider);
+    const double forward = motion.hold(Direction::forward), backward = motion.hold(Direction::backward);
+    CHECK(backward > forward);
+    CHECK(motion(0, 0, -forward * (1 - 1e-9), 0.1).displacement == 0);
+    CHECK(motion(0, 0, -forward * (1 + 1e-9), 0.1).displacement > 0);
+    if (!std::isfinite(backward)) {
+      CHECK(motion(0, 0, 1e3, 0.1).displacement == 0);
+    } else {
+      CHECK(motion(0, 0, backward * (1 - 1e-9), 0.1).displacement == 0);
+      CHECK(motion(0, 0, backward * (1 + 1e-9), 0.1).displacement < 0);
+    }
+    // Friction while sliding: no acceleration at the load that it resists.
+    CHECK(motion(0, 1e-9, -motion.start(Direction::forward), 1e-6).velocity == Approx(1e-9).epsilon(1e-3));
+    CHECK(!motion.mirrors());
+    if (!motion.breaks_away()) continue;
+    const detail::HeldMotion less = motion.holding_less(0.05);
+    CHECK(less.hold(Direction::forward) == Approx(forward - 0.05).epsilon(1e-12));
+    CHECK((!std::isfinite(backward) || less.hold(Direction::backward) == Approx(backward - 0.05).epsilon(1e-12)));
+    CHECK(less.start(Direction::forward) == Approx(motion.start(Direction::forward)).epsilon(1e-12));
+  }
+  // Too rough to slide backward, however large the load.
+  CHECK(!std::isfinite(detail::HeldMotion(Slider(Coulomb::from_friction(1.1), Mounting{.slope_degrees = 45}))
+                           .hold(Direction::backward)));
+}
+
+TEST_CASE("a slider on a slope moves as an ensemble does", "[long]") {
+  // A slope of 20 degrees: slip levels of 1.1 and 10 m/s^2. 20,000 members; three standard errors.
+  const Slider slider(Coulomb(4.9), Mounting{.slope_degrees = 20});
+  const double rms = 1.2, zeta = 0.6, dt = 0.05;
+  const ShapingFilter filter = kanai_tajimi(zeta, rms);
+  const Ensemble ensemble = simulated(slider, filter, zeta, dt, 20);
+  const auto found = Transport(0.02).predict(slider, filter, std::vector<double>{10, 20});
+  for (const std::size_t k : {0U, 1U}) {
+    near(found.displacement_mean, ensemble.displacement_mean(), k);
+    near(found.displacement_variance, ensemble.displacement_variance(), k);
+    near(found.velocity_variance, ensemble.velocity_variance(), k);
+  }
+}
+
 TEST_CASE("times far below a step have moments of their own") {
   // At first the load is what it was at the start: E[x'^2] = t^2 E[(|n| - a)+^2], E[x^2] = t^2 / 4 of it.
   const double t = 1e-5, y = 1;
@@ -409,6 +497,22 @@ TEST_CASE("a caster of short reach is a free mass, one of long reach a block", "
         Approx(block.displacement_variance.value[0]).margin(held.displacement_variance.error[0]).epsilon(5 * ratio));
 }
 
+TEST_CASE("a caster under filtered noise moves as an ensemble does", "[long]") {
+  // It leaves its reach of 2 a / wg^2 meanwhile. 20,000 members; three standard errors.
+  const double rms = 1.5, zeta = 0.6, dt = 0.05;
+  const Slider slider(Caster(1.0, 2.0));
+  const ShapingFilter filter = kanai_tajimi(zeta, rms);
+  const Ensemble ensemble = simulated(slider, filter, zeta, dt, 8);
+  const auto found = Transport(0.3).predict(slider, filter, std::vector<double>{4, 8});
+  CHECK(std::isnan(found.growth_rate.value));
+  for (const std::size_t k : {0U, 1U}) {
+    near(found.displacement_variance, ensemble.displacement_variance(), k);
+    near(found.covariance, ensemble.covariance(), k);
+    near(found.velocity_variance, ensemble.velocity_variance(), k);
+  }
+  CHECK(found.displacement_variance.error[1] < 0.05 * found.displacement_variance.value[1]);
+}
+
 TEST_CASE("a caster breaks loose at the time of prototypes and ensembles", "[long]") {
   // z = 1, thesis (3.50), for gamma = S0^2 / (3 l a^3) = 0.01: at 32.78 by an independent program; (3.51) has 35.1.
   const double reach = 100, t = 32.78;
@@ -417,6 +521,19 @@ TEST_CASE("a caster breaks loose at the time of prototypes and ensembles", "[lon
                xv = found.covariance.value[0];
   const double z = reach * std::sqrt(vv / (2 * (xx * vv - xv * xv)));
   CHECK(z == Approx(1).epsilon(0.002));
+}
+
+TEST_CASE("static friction on a spring moves as an ensemble does", "[long]") {
+  const double rms = 1.5, zeta = 0.4;
+  const Slider slider(StaticKinetic<Coulomb>(Coulomb(1.0), 1.5), 1.0);
+  const ShapingFilter filter = kanai_tajimi(zeta, rms);
+  const Ensemble ensemble = simulated(slider, filter, zeta, 0.0125, 10);
+  const auto found = Transport(0.3).predict(slider, filter, std::vector<double>{5, 10});
+  for (const std::size_t k : {0U, 1U}) {
+    near(found.displacement_variance, ensemble.displacement_variance(), k);
+    near(found.velocity_variance, ensemble.velocity_variance(), k);
+    CHECK(found.velocity_variance.error[k] >= 0.0399 * found.velocity_variance.value[k]);
+  }
 }
 
 TEST_CASE("static friction makes slips rarer", "[long]") {
@@ -442,7 +559,14 @@ TEST_CASE("what is not covered is refused with the reason") {
   CHECK_THAT(why(Slider(Coulomb(0.0)), 1.0), Contains("forward slip level must be positive and finite, got 0"));
   CHECK_THAT(why(block, Spectrum::clough_penzien(1, 10, 0.5, 2, 0.5)), Contains("filters of two states"));
   CHECK_THAT(why(block, ShapingFilter(1, {{1, 0, 1, 1, 1}})), Contains("b2 must be 0, got 1"));
-  CHECK_THAT(why(Slider(Coulomb(1.0), Mounting{.one_way = true}), 1.0), Contains("slide both ways"));
+  CHECK_THAT(why(Slider(Coulomb(1.0), Mounting{.stops = Stops(1, 0.5)}), 1.0), Contains("without stops"));
+  const Slider sloped(Coulomb(2.0), Mounting{.slope_degrees = 5});
+  CHECK(theory.covers(sloped, kanai_tajimi(0.5, 1)));
+  CHECK_THAT(why(sloped, 1.0), Contains("white noise lifts a slider off a slope"));
+  CHECK_THAT(why(Slider(Coulomb(8.0), Mounting{.slope_degrees = 30}), kanai_tajimi(0.5, 4)),
+             Contains("at most g / (4.5 tan(slope)) = 3.77"));
+  CHECK_THAT(why(Slider(VelocityDependent(2.0, 0.5, 1.0), sloped.mounting()), kanai_tajimi(0.5, 1)),
+             Contains("least resistance to sliding at any speed must be positive, got -0.3"));
   CHECK_THAT(why(block, kanai_tajimi(0.5, 0.3)), Contains("must be at least 0.35, below which slips are too rare"));
   CHECK_THAT(why(block, kanai_tajimi(0.05, 1)), Contains("damping ratio of the filter must be from 0.1 to 1.5"));
   CHECK_THAT(why(Slider(Coulomb(1.0), 5.1), kanai_tajimi(0.5, 1)), Contains("at most 5 times the frequency"));
@@ -453,8 +577,26 @@ TEST_CASE("what is not covered is refused with the reason") {
   const Slider sticky(StaticKinetic<Coulomb>(Coulomb(1.0), 1.5));
   CHECK(theory.covers(sticky, kanai_tajimi(0.5, 1)));
   CHECK_THAT(why(sticky, 1.0), Contains("exceeds any friction at rest at once"));
-  CHECK_THAT(why(Slider(sticky.law(), 1.0), kanai_tajimi(0.5, 1)), Contains("static friction above kinetic without a"));
-  CHECK_THAT(why(Slider(Caster(1.0, 10.0)), kanai_tajimi(0.5, 1)), Contains("casters under white noise"));
+  const auto held = [&](double level, double wn, double rms, double zeta) {
+    return Transport(0.1)
+        .covers(Slider(StaticKinetic<Coulomb>(Coulomb(1.0), level), wn), kanai_tajimi(zeta, rms))
+        .reason;
+  };
+  CHECK(held(1.5, 1, 1, 0.5).empty());
+  CHECK_THAT(held(2.1, 1, 1, 0.5), Contains("at most twice the kinetic one, got 2.1"));
+  CHECK_THAT(held(1.5, 3.1, 1, 0.5), Contains("at most 3 times the frequency"));
+  CHECK_THAT(held(1.5, 1, 0.6, 0.5), Contains("must be from 0.7 to 3, got 0.6"));
+  CHECK_THAT(held(1.5, 1, 1, 1.0), Contains("must be from 0.3 to 0.9, got 1"));
+  CHECK_THAT(why(Slider(sticky.law(), 1.0), kanai_tajimi(0.5, 1)), Contains("needs a tolerance of at least 0.05"));
+  CHECK(theory.covers(Slider(Caster(1.0, 10.0)), kanai_tajimi(0.5, 1)));
+  CHECK_THAT(why(Slider(Caster(1.0, 0.9)), kanai_tajimi(0.5, 1)), Contains("must be at least a / wg^2 = 1 m, got 0.9"));
+  CHECK_THAT(why(Slider(Caster(1.0, 10.0)), kanai_tajimi(0.5, 6.1)), Contains("of a caster must be from 0.7 to 6"));
+  CHECK_THAT(why(Slider(Caster(1.0, 10.0)), kanai_tajimi(0.2, 1)), Contains("must be from 0.3 to 0.9, got 0.2"));
+  CHECK_THAT(why(Slider(Caster(1.0, 10.0)), ShapingFilter(0.3, {{0, 1, 0, 1, 1}})),
+             Contains("content at zero frequency"));
+  CHECK_THAT(why(Slider(Caster(1.0, 10.0), 0.5), kanai_tajimi(0.5, 1)), Contains("filtered noise without a spring"));
+  CHECK_THAT(why(Slider(Caster(2.0, 10.0), Mounting{.slope_degrees = 5}), kanai_tajimi(0.5, 1)),
+             Contains("casters on a slope"));
   CHECK_THAT(why(Slider(Caster(1.0, 10.0), 0.9), 1.0), Contains("of at least 3 pi S0 = 9.42"));
   CHECK_THAT(why(Slider(Degrading({0, 1}, {1, 0.5})), 1.0), Contains("does not cover laws with memory"));
   CHECK_THROWS_WITH(theory.stationary(Slider(Caster(1.0, 10.0)), 1.0), Contains("does not become stationary"));

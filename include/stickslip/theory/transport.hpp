@@ -157,13 +157,18 @@ class TransportPrediction : public Moments {
 /// are below the tolerance.
 ///
 /// Covers Coulomb friction with equal, unequal and one-way levels, friction that depends on the speed
-/// (`VelocityDependent`, `Stribeck`), and static friction above kinetic; with or without a spring and a damper; under
-/// white noise and noise from a filter of two states, such as Kanai and Tajimi's or one without content at zero
-/// frequency. Casters are covered under white noise, static friction under filtered or held noise.
+/// (`VelocityDependent`, `Stribeck`), and static friction above kinetic; with or without a spring and a damper; with a
+/// one-way mounting; on slopes without vertical motion. White noise, and noise from a filter of two states, such as
+/// Kanai and Tajimi's or one without content at zero frequency. Casters are covered under noise, without a slope;
+/// static friction under filtered or held noise, slopes under these and pulses.
 /// The damping ratio of the filter is from 0.1 to 1.5, its rms acceleration at least 0.35 times the lower level at rest
 /// and at most 20 times the least resistance, and the spring at most 5 times as fast as it. Under white noise one level
 /// is at most 10 times the other, or infinite, wn pi S0 / a^2 at least 0.05, and a caster on a spring has
-/// a reach wn >= 3 pi S0. Static friction without a spring only: where it breaks away depends on the load alone.
+/// a reach wn >= 3 pi S0. Under filtered noise a caster has no spring, a reach of at least a / wg^2, and the noise content
+/// at zero frequency, an rms acceleration from 0.7 a to 6 a and a damping ratio of the filter from 0.3 to 0.9, for which
+/// its errors were measured. Under filtered noise static friction on a spring needs a tolerance of at least 0.05, and
+/// is equal both ways and at most twice the kinetic one, wn at most 3 wg, the rms acceleration from 0.7 a to 3 a and the
+/// damping ratio of the filter from 0.3 to 0.9.
 ///
 /// Pulses of two equal steps, up and down, with Gaussian amplitudes, are moved to the nodes of a lattice of times, of
 /// one and two slots to a half width Dt; the state of the ground is then the last batches of pulses. The stated error
@@ -193,7 +198,9 @@ class Transport {
   }
 
   /// Moments from rest on.
-  /// @param slider  positive levels, which may differ, the backward one also infinite; spring and damper optional.
+  /// @param slider  positive levels, which may differ, the backward one also infinite; spring and damper optional. On a
+  ///                slope the levels are the ground accelerations that just move it, and the rms acceleration is at
+  ///                most g / (4.5 tan(slope)), so that it does not lift off
   ///                Without a spring a caster's growth rate is NaN
   /// @param excitation  noise, stationary from time zero on, or pulses
   /// @param times   [s], finite, at least 0, increasing; under pulses 0 or at least 2 half widths, with
@@ -202,7 +209,8 @@ class Transport {
   /// @throws std::invalid_argument naming what is not covered or the rejected value
   /// @throws ConvergenceError  the tolerance is not reached within the largest grid; names the best value and its
   ///                           error. Not under pulses, where the error of the lattice is larger, and stated
-  /// Takes 0.3 to 2 s for a block, up to 20 s at the edges of the range, 2 to 8 s for static friction, 2 to 60 s with a spring, 3 to 300 s for a caster;
+  /// Takes 0.3 to 2 s for a block, up to 20 s at the edges of the range, 2 to 8 s for static friction, 2 to 60 s with a
+  /// spring, 3 to 300 s for a caster, under filtered noise with a tolerance of 0.1;
   /// under pulses 0.2 to 5 s for a block, 2 to 25 s with a spring.
   TransportPrediction predict(const AnySlider& slider, const TransportExcitation& excitation,
                               std::span<const double> times, const std::function<void()>& progress = {}) const;

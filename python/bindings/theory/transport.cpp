@@ -402,15 +402,20 @@ two steps (under white noise from three to six), and its error is that of the ex
 and windows of the grid are refined. docs/transport.md has the derivation and a table of errors.
 
 Covers Coulomb friction with equal, unequal and one-way levels, friction that depends on the speed (`VelocityDependent`,
-`Stribeck`), and static friction above kinetic; with or without a spring and a damper; under white noise and noise from
-a filter of two states: Kanai and Tajimi's, or one without content at zero frequency. Casters are covered under white
-noise, static friction under filtered or held noise and without a spring. A `GaussianExcitation` stands for its spectrum
-as a continuous Gaussian process, stationary at t = 0, not periodic, with its content at zero frequency; white noise with
-constant, uncorrected interpolation is predicted as sampled.
+`Stribeck`), and static friction above kinetic; with or without a spring and a damper; with a one-way mounting; on slopes
+without vertical motion. White noise, and noise from a filter of two states: Kanai and Tajimi's, or one without content
+at zero frequency. Casters are covered under noise, static friction under filtered or held noise, on a spring with
+a tolerance of at least 0.05, slopes under filtered or held noise and pulses, with an rms acceleration of at most g / (4.5 tan(slope)). A
+`GaussianExcitation` stands for its spectrum as a continuous Gaussian process, stationary at t = 0, not periodic, with
+its content at zero frequency; white noise with constant, uncorrected interpolation is predicted as sampled.
 
 The damping ratio of the filter is from 0.1 to 1.5, its rms acceleration at least 0.35 times the lower level at rest and
 at most 20 times the least resistance, and the spring at most 5 times as fast as it. Under white noise one level is at
 most 10 times the other, or infinite, wn pi S0 / a^2 at least 0.05, and a caster on a spring has a reach wn >= 3 pi S0.
+Under filtered noise a caster has no spring, a reach of at least a / wg^2, an rms acceleration from 0.7 a to 6 a and a
+damping ratio of the filter from 0.3 to 0.9, and takes minutes: use a tolerance of 0.1 for errors of 1 to 4 %.
+Static friction on a spring under filtered noise is equal both ways and at most twice the kinetic one a, wn at most
+3 wg, the rms acceleration from 0.7 a to 3 a and the damping ratio of the filter from 0.3 to 0.9.
 
 `PoissonPulses` of two equal steps, up and down, with Gaussian amplitudes and without an envelope, are moved to the nodes
 of a lattice of times, of one and two slots to a half width Dt; what is left of the whole error with two slots is 0.20 to

@@ -9,6 +9,7 @@
 #include "stickslip/base/equal.hpp"
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/sliding/advance.hpp"
+#include "stickslip/units.hpp"
 
 namespace stickslip::detail {
 namespace {
@@ -45,6 +46,32 @@ double speed_of(const StaticKinetic<Law>& law) {
   return speed_of(law.sliding());
 }
 
+/// Friction as the ground acceleration that it resists, and back.
+class Incline {
+ public:
+  explicit Incline(const Mounting& on)
+      : sine_(std::sin(on.slope())), cosine_(std::cos(on.slope())), one_way_(on.one_way) {}
+
+  double load(double level, Direction direction) const {
+    const bool forward = direction == Direction::forward;
+    if (one_way_ && !forward) return infinity;
+    if (equal(sine_, 0) || !std::isfinite(level)) return level;
+    const double down = forward ? sine_ : -sine_, by_load = cosine_ + level / standard_gravity * down;
+    return by_load > 0 ? (level * cosine_ - standard_gravity * down) / by_load : infinity;
+  }
+  /// The level that resists a finite load.
+  double level(double load, Direction direction) const {
+    if (equal(sine_, 0)) return load;
+    const double down = direction == Direction::forward ? sine_ : -sine_;
+    return (load * cosine_ + standard_gravity * down) / (cosine_ - load / standard_gravity * down);
+  }
+  double lift_off() const { return sine_ > 0 ? standard_gravity * cosine_ / sine_ : infinity; }
+
+ private:
+  double sine_, cosine_;
+  bool one_way_;
+};
+
 /// The largest |x| of a motion: it is at its ends or where the velocity is zero.
 struct Farthest {
   double distance;
@@ -65,25 +92,30 @@ HeldMotion::HeldMotion(const AnySlider& slider)
             if constexpr (!covered<Law>) {
               throw std::invalid_argument("Transport: does not cover laws with memory, nor functions");
             } else {
-              require_plain_mounting(one.mounting(), "Transport");
-              return Slider<Law>(one.law(), one.natural_frequency(), one.damping());
+              if (one.mounting().stops) throw std::invalid_argument("Transport: covers sliders without stops");
+              // without a slope and vertical motion a pendulum is a spring
+              return one.plain() ? Slider<Law>(one.law(), one.natural_frequency(), one.damping()) : one;
             }
           },
           slider)) {
   std::visit(
       [this]<class Law>(const Slider<Law>& one) {
         if constexpr (covered<Law>) {
+          const Incline incline(one.mounting());
           const auto friction = [&](Direction direction) -> Friction {
-            return {stickslip::hold(one.law(), 0, direction), stickslip::resist(one.law(), 0.0, 0.0, direction)};
+            return {incline.load(stickslip::hold(one.law(), 0, direction), direction),
+                    incline.load(stickslip::resist(one.law(), 0.0, 0.0, direction), direction)};
           };
           forward_ = friction(Direction::forward);
           backward_ = friction(Direction::backward);
           reach_ = reach_of(one.law());
           speed_ = speed_of(one.law());
+          lift_off_ = incline.lift_off();
           least_ = std::min(forward_.start, backward_.start);
           if (std::isfinite(speed_))
             for (const Direction direction : {Direction::forward, Direction::backward})
-              least_ = std::min<double>(least_, stickslip::resist(one.law(), 0.0, 1e3 * speed_, direction));
+              least_ =
+                  std::min(least_, incline.load(stickslip::resist(one.law(), 0.0, 1e3 * speed_, direction), direction));
         }
       },
       slider_);
@@ -96,7 +128,7 @@ HeldMotion::End HeldMotion::operator()(double x, double v, double load, double s
         if constexpr (covered<Law>) {
           State state = State::at(x, v);
           Farthest farthest{std::abs(x)};
-          advance(one, Segment{step, load, load}, state, farthest);
+          advance(one, Segment{step, load, load}, state, farthest, Contact::clipped);
           return {state.displacement, state.velocity, std::max(farthest.distance, std::abs(state.displacement))};
         } else {
           throw std::logic_error("Transport: a law that is not covered");
@@ -115,9 +147,16 @@ HeldMotion HeldMotion::holding_less(double by) const {
   return std::visit(
       [&]<class Law>(const Slider<Law>& one) {
         if constexpr (covered<Law> && requires { one.law().sliding(); }) {
-          const auto less = [&](const Friction& friction) { return std::max(friction.hold - by, friction.start); };
-          return HeldMotion(Slider(StaticKinetic(one.law().sliding(), less(forward_), less(backward_)),
-                                   one.natural_frequency(), one.damping()));
+          const Incline incline(one.mounting());
+          const auto less = [&](const Friction& friction, Direction direction, double level) {
+            if (!std::isfinite(friction.hold)) return level;
+            return std::max(incline.level(friction.hold - by, direction),
+                            stickslip::resist(one.law(), 0.0, 0.0, direction));
+          };
+          return HeldMotion(
+              Slider(StaticKinetic(one.law().sliding(), less(forward_, Direction::forward, one.law().static_forward()),
+                                   less(backward_, Direction::backward, one.law().static_backward())),
+                     one.mounting()));
         } else {
           return *this;
         }

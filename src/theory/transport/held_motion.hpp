@@ -1,15 +1,23 @@
 // The exact motion of a slider over a step whose load is held: the part S of the transport operator.
 #pragma once
 
+#include <limits>
+
 #include "stickslip/sliding/any_slider.hpp"
 #include "stickslip/state.hpp"
 
 namespace stickslip::detail {
 
-/// A plain slider on level ground, of a law without memory, under a load that is held over each step.
+/// A slider without stops, of a law without memory, under a load that is held over each step: a ground acceleration n.
+/// Friction is given as the ground acceleration that it resists. On level ground that is the level of the law; on a
+/// slope it is larger backward than forward, and a level becomes
+///     (level cos(slope) - g sin(slope)) / (cos(slope) + level / g sin(slope))  forward,
+///     (level cos(slope) + g sin(slope)) / (cos(slope) - level / g sin(slope))  backward;
+/// where sliding is one-way, or the last denominator is not positive, the backward one is infinite. Contact is never
+/// lost: where N < 0 there is no friction.
 class HeldMotion {
  public:
-  /// @throws std::invalid_argument  a law that is not covered, or a mounting that is not plain
+  /// @throws std::invalid_argument  a law that is not covered, or stops
   explicit HeldMotion(const AnySlider& slider);
 
   /// Displacement [m] and velocity [m/s] after a step, and the largest |x| on the way.
@@ -25,6 +33,10 @@ class HeldMotion {
 
   double stiffness() const noexcept { return mounting_of(slider_).stiffness(); }
   double natural_frequency() const noexcept { return mounting_of(slider_).natural_frequency; }
+
+  /// The ground acceleration, downward along the slope, at which the normal force vanishes [m/s^2]; infinite on level
+  /// ground.
+  double lift_off() const noexcept { return lift_off_; }
 
   /// Friction at x = 0 [m/s^2]: the largest at rest and the resistance just after it, against sliding in a direction.
   double hold(Direction direction) const noexcept { return of(direction).hold; }
@@ -45,7 +57,7 @@ class HeldMotion {
   double speed() const noexcept { return speed_; }
 
   /// The same slider with its friction at rest reduced, but not below that just after it.
-  /// @param by  [m/s^2]
+  /// @param by  ground acceleration [m/s^2]
   HeldMotion holding_less(double by) const;
 
  private:
@@ -58,7 +70,7 @@ class HeldMotion {
 
   AnySlider slider_;
   Friction forward_{}, backward_{};
-  double least_ = 0, reach_ = 0, speed_ = 0;
+  double least_ = 0, reach_ = 0, speed_ = 0, lift_off_ = std::numeric_limits<double>::infinity();
   bool mirrors_ = false;
 };
 

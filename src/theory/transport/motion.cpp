@@ -90,8 +90,7 @@ double chance_of_loads(const LoadGrid& load, double least, double most, std::siz
   for (std::size_t i = 0; i < load.loads(); ++i) {
     double& part = within.emplace_back();
     std::vector<double> cuts;
-    for (const double level : {least, most})
-      if (std::abs(level - load.load(i)) < load.reach(i)) cuts.push_back(level);
+    if (load.white()) cuts = {least, most};
     load.average(i, cuts, [&](double n, double weight) { part += n >= least && n <= most ? weight : 0; });
   }
   Vector p = load.start();

@@ -21,8 +21,8 @@ std::vector<MotionMoments> history_from_rest(const Chain& chain, std::size_t ste
 /// The weights after some steps from rest. Their sum is the probability that no wall has been reached.
 Chain::Vector weights_from_rest(const Chain& chain, std::size_t steps, const std::function<void()>& progress);
 
-/// The probability that the loads of some steps from the start on lie between two values, at which functions of
-/// filtered noise may jump.
+/// The probability that the loads of some steps from the start on lie between two values: at which functions of
+/// filtered noise may jump, and on none of which lies a node of the lattice of pulses.
 double chance_of_loads(const LoadGrid& load, double least, double most, std::size_t steps);
 
 /// The stationary motion; if x is not part of the state, `xx` is the growth rate of the variance of x.

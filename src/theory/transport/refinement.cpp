@@ -42,6 +42,20 @@ std::vector<double> split(const std::vector<double>& edges, double reach) {
   return result;
 }
 
+/// Edges from 0 on, those given among them, for friction that falls off over a reach: panels of one reach, and growing
+/// by about two thirds each.
+std::vector<double> growing(double reach, const std::vector<double>& ends) {
+  std::vector<double> edges;
+  double edge = 0;
+  for (const double end : ends)
+    while (edge < end) {
+      const double width = reach + 0.65 * std::max(edge - reach, 0.0);
+      edge = end - edge < 1.5 * width ? end : edge + width;
+      edges.push_back(edge);
+    }
+  return edges;
+}
+
 }  // namespace
 
 TransportProblem::TransportProblem(const AnySlider& slider, const theory::TransportExcitation& excitation)
@@ -93,8 +107,11 @@ double TransportProblem::ground_velocity() const noexcept {
 }
 
 TransportProblem::Window TransportProblem::free_window(double time) const noexcept {
-  // Its velocity is Gaussian: half of the reach of an exponential distribution suffices.
-  return {std::sqrt(2 * power_ * time * time * time / 3), std::sqrt(2 * power_ * time) / 2};
+  // Its velocity is Gaussian: half of the reach of an exponential distribution suffices. Of the velocity of the ground a
+  // mass keeps what it had at the start.
+  const double ground = 2 * ground_velocity();
+  return {std::hypot(std::sqrt(2 * power_ * time * time * time / 3), ground * time),
+          std::hypot(std::sqrt(2 * power_ * time), ground) / 2};
 }
 
 TransportProblem::Steps TransportProblem::steps_to(double time) const {
@@ -113,17 +130,25 @@ TransportProblem::Steps TransportProblem::steps_to(double time) const {
 Estimate TransportProblem::resting(double time) const {
   if (white() && !(held_ > 0)) return {0, 0};
   const double forward = motion_.hold(Direction::forward), backward = motion_.hold(Direction::backward);
-  if (fixed_step()) {
-    const auto after = [&](double slots) {
-      const double step = first_step() / slots;
-      const LoadGrid load = pulses_ ? batches(step, 1) : LoadGrid(std::sqrt(2 * pi * s0_ / held_));
+  if (held_ > 0) {
+    const LoadGrid load(std::sqrt(2 * pi * s0_ / held_));
+    return {chance_of_loads(load, -forward, backward, static_cast<std::size_t>(std::ceil(time / held_ - 1e-9))), 0};
+  }
+  if (pulses_) {
+    // Amplitudes on fine lattices whose nodes lie on either side of the lower level.
+    const auto after = [&](std::size_t slots) {
+      const double step = pulses_->half_width / static_cast<double>(slots), sigma = pulses_->arrivals.sigma;
+      const double level = motion_.least_hold(), nodes = slots == 1 ? 30 : 4;
+      const double spacing = level / (std::max(std::round(level * nodes / sigma), 1.0) - 0.5);
+      const int reach = static_cast<int>(std::ceil(4.5 * sigma / spacing));
+      const double none = std::exp(-pulses_->arrivals.rate / static_cast<double>(slots));
+      pulse_chain::Weights batch = pulses_->arrivals.batch(1 / static_cast<double>(slots), spacing, reach);
+      batch[0] -= none;
+      const LoadGrid load(batch, none, slots, pulses_->stationary ? std::optional(batch) : std::nullopt);
       return chance_of_loads(load, -forward, backward, static_cast<std::size_t>(std::ceil(time / step - 1e-9)));
     };
-    const double once = after(1);
-    if (!pulses_) return {once, 0};
-    if (!can_halve_slots(true)) return {once, 0.1 * once};
-    const double change = after(2) - once;
-    return {std::clamp(once + 1.24 * change, 0.0, 1.0), std::abs(change)};
+    const double once = after(1), twice = after(2);
+    return {std::clamp(twice + (twice - once) / 3, 0.0, 1.0), std::abs(twice - once)};
   }
   // Noise whose middles of steps stay within the levels, which are lowered as in `chain`.
   const double lowering = 0.5826 * filtered_->roughness, farthest = 4.5 * filtered_->rms;
@@ -248,12 +273,15 @@ Chain TransportProblem::chain(double step, std::size_t fineness, const Window& w
                0.23,  0.33,  0.44,   0.55,  0.66,  0.77,  0.88,  1};
     else
       for (double i = 1; i <= panels; ++i) parts.push_back(i / panels);
+    const bool thrifty = filtered_ && std::isfinite(motion_.reach());
+    if (thrifty && wanders() && !std::isfinite(wall) && !window.graded) parts = {1.0};
+    if (thrifty) parts = growing(motion_.reach() / (std::isfinite(wall) ? wall : end), parts);
     for (const double part : parts) {
       const double edge = part * (std::isfinite(wall) ? wall : end);
       edges.push_back(edge);
       if (!(window.graded && one_way())) edges.insert(edges.begin(), -edge);
     }
-    x = {split(edges, motion_.reach()), degree};
+    x = {thrifty ? edges : split(edges, motion_.reach()), degree};
   }
   if (pulses_) return {motion_, x, v, batches(step, fineness), step, wall};
   if (!filtered_) return {motion_, x, v, LoadGrid(std::sqrt(2 * pi * s0_ / (held_ > 0 ? held_ : step))), step, wall};
@@ -382,8 +410,11 @@ Refined refine(const TransportProblem& problem, const TransportProblem::Window& 
     const std::size_t same = problem.white() ? last : first;
     result.error += (with(same, fineness) - with(same, fineness - 1)).cwiseAbs();
     // The linear systems and the quadratures have errors of this size; where the slider breaks away, the load at which
-    // it does.
-    result.error = result.error.cwiseMax((breaks_away ? 5e-3 : 5e-7) * result.value.cwiseAbs());
+    // it does. On a spring that load depends on x, and values jump within a panel.
+    result.error = result.error.cwiseMax((!breaks_away       ? 5e-7
+                                          : problem.sprung() ? 4e-2
+                                                             : 5e-3) *
+                                         result.value.cwiseAbs());
     if (result.within(accuracy)) break;
     if (4 * result.nodes > most_nodes) break;
   }

@@ -223,6 +223,56 @@ Transport::Transport(double tolerance) : tolerance_(tolerance) {
 
 namespace {
 
+/// On a slope the normal force depends on the load.
+void check_contact(const detail::HeldMotion& motion, double rms) {
+  require(rms <= motion.lift_off() / 4.5,
+          "Transport: on a slope the rms acceleration must be at most g / (4.5 tan(slope)) = " +
+              detail::shortest(motion.lift_off() / 4.5) + " m/s^2, so that the slider does not lift off",
+          rms, "m/s^2");
+}
+
+/// What is covered of casters under filtered noise: the range in which their errors were measured.
+void check_caster(const detail::HeldMotion& motion, const ShapingFilter& filter, double frequency, double damping,
+                  double rms) {
+  if (!(filter(0) > 0))
+    throw std::invalid_argument("Transport: covers casters under filtered noise with content at zero frequency");
+  const double level = motion.start(Direction::forward), reach = motion.reach() * frequency * frequency / level;
+  require(reach >= 1,
+          "Transport: under filtered noise the reach of a caster must be at least a / wg^2 = " +
+              detail::shortest(level / (frequency * frequency)) + " m",
+          motion.reach(), "m");
+  require(rms >= 0.699 * level && rms <= 6.01 * level,
+          "Transport: under filtered noise the rms acceleration over the slip level of a caster must be from 0.7 to 6",
+          rms / level);
+  require(damping >= 0.3 && damping <= 0.9,
+          "Transport: with a caster the damping ratio of the filter must be from 0.3 to 0.9", damping);
+  if (motion.natural_frequency() > 0)
+    throw std::invalid_argument("Transport: covers casters under filtered noise without a spring");
+}
+
+/// What is covered of static friction on a spring: the range in which its errors were measured.
+void check_static_on_spring(const detail::HeldMotion& motion, double frequency, double damping, double rms,
+                            double tolerance) {
+  const double level = motion.start(Direction::forward), wn = motion.natural_frequency();
+  require(tolerance >= 0.05,
+          "Transport: static friction on a spring needs a tolerance of at least 0.05, its errors are 4 % and more; it",
+          tolerance);
+  require(motion.mirrors() && motion.hold(Direction::forward) <= 2 * level,
+          "Transport: static friction on a spring must be equal both ways and at most twice the kinetic one",
+          motion.hold(Direction::forward), "m/s^2");
+  require(wn <= 3 * frequency,
+          "Transport: with static friction natural_frequency must be at most 3 times the frequency of the filter, " +
+              detail::shortest(3 * frequency) + " rad/s",
+          wn, "rad/s");
+  require(
+      rms >= 0.699 * level && rms <= 3.01 * level,
+      "Transport: with static friction on a spring the rms acceleration over the kinetic level must be from 0.7 to 3",
+      rms / level);
+  require(damping >= 0.3 && damping <= 0.9,
+          "Transport: with static friction on a spring the damping ratio of the filter must be from 0.3 to 0.9",
+          damping);
+}
+
 /// What of pulses is covered.
 void check_pulses(const detail::HeldMotion& motion, const PoissonPulses& pulses) {
   const PoissonOptions& options = pulses.options();
@@ -246,6 +296,7 @@ void check_pulses(const detail::HeldMotion& motion, const PoissonPulses& pulses)
       "Transport: the rms acceleration of pulses over the lower slip level must be at least 0.25, below which slips "
       "are too rare",
       strength * std::sqrt(2 * arriving));
+  check_contact(motion, std::abs(values[0]) * pulses.sigma() * std::sqrt(std::max(1.0, 2 * arriving)));
   const double turn = motion.natural_frequency() * half_width;
   require(turn <= 3, "Transport: natural_frequency times the half width of a pulse must be at most 3", turn);
 }
@@ -260,9 +311,15 @@ void Transport::check(const AnySlider& slider, const TransportExcitation& excita
   require(motion.start(backward) > 0, "Transport: the backward slip level must be positive", motion.start(backward),
           "m/s^2");
   const double least = motion.least(), wn = motion.natural_frequency();
+  require(least > 0, "Transport: the least resistance to sliding at any speed must be positive", least, "m/s^2");
   if (const auto* pulses = std::get_if<PoissonPulses>(&excitation)) return check_pulses(motion, *pulses);
+  if (std::isfinite(motion.reach()) && std::isfinite(motion.lift_off()))
+    throw std::invalid_argument("Transport: does not cover casters on a slope, which roll away beyond their reach");
   const auto& noise = std::get<TwoStateNoise>(excitation);
   if (noise.white()) {
+    if (!(noise.held() > 0) && std::isfinite(motion.lift_off()))
+      throw std::invalid_argument(
+          "Transport: continuous white noise lifts a slider off a slope; covers slopes under filtered noise");
     const double ratio = std::max(motion.start(forward), motion.start(backward)) / least;
     require(ratio <= 10 || !std::isfinite(ratio),
             "Transport: under white noise a level must be at most 10 times the other, or infinite; their ratio", ratio);
@@ -275,17 +332,12 @@ void Transport::check(const AnySlider& slider, const TransportExcitation& excita
             "natural_frequency of at least 3 pi S0 = " +
                 detail::shortest(3 * supply) + " m^2/s^3",
             hold, "m^2/s^3");
+    if (noise.held() > 0) check_contact(motion, std::sqrt(2 * std::numbers::pi * noise.filter().s0() / noise.held()));
     if (motion.breaks_away() && !(noise.held() > 0))
       throw std::invalid_argument(
           "Transport: continuous white noise exceeds any friction at rest at once; give the kinetic law alone");
     return;
   }
-  if (motion.breaks_away() && wn > 0)
-    throw std::invalid_argument(
-        "Transport: covers static friction above kinetic without a spring; with one, the load at which the slider "
-        "breaks away depends on the displacement");
-  if (std::isfinite(motion.reach()))
-    throw std::invalid_argument("Transport: covers casters under white noise, not under filtered noise");
   const ShapingFilter::Section& section = noise.filter().sections().front();
   const double frequency = std::sqrt(section.d0), damping = section.d1 / (2 * frequency);
   require(damping >= 0.1 && damping <= 1.5, "Transport: the damping ratio of the filter must be from 0.1 to 1.5",
@@ -295,6 +347,7 @@ void Transport::check(const AnySlider& slider, const TransportExcitation& excita
               detail::shortest(5 * frequency) + " rad/s",
           wn, "rad/s");
   const double rms = detail::FilterStates(noise.filter()).rms;
+  check_contact(motion, rms);
   require(rms / motion.least_hold() >= 0.35,
           "Transport: the rms acceleration over the lower slip level must be at least 0.35, below which slips are too "
           "rare",
@@ -303,6 +356,8 @@ void Transport::check(const AnySlider& slider, const TransportExcitation& excita
           "Transport: the rms acceleration over the least slip level must be at most 20, above which friction hardly "
           "matters",
           rms / least);
+  if (std::isfinite(motion.reach())) check_caster(motion, noise.filter(), frequency, damping, rms);
+  if (motion.breaks_away() && wn > 0) check_static_on_spring(motion, frequency, damping, rms, tolerance_);
 }
 
 TransportPrediction Transport::predict(const AnySlider& slider, const TransportExcitation& excitation,
