@@ -226,6 +226,7 @@ Chain::Speeds Chain::speeds(const Vector& p, std::span<const double> sizes) cons
     });
   }
   if (mirrored()) back = ahead = ahead / 2;
+  found.forward = ahead.sum();
   found.backward = back.sum();
   found.forward_to = SplineDensity(forward, ahead, 0).below(sizes);
   found.backward_to = SplineDensity(backward, back, 0).below(sizes);

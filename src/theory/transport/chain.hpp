@@ -78,7 +78,7 @@ class Chain {
 
   /// Probabilities of the velocity of what is seen of such a step under pulses.
   struct Speeds {
-    double rest = 0, backward = 0;                    ///< of v = 0 and v < 0
+    double rest = 0, forward = 0, backward = 0;       ///< of v = 0, v > 0 and v < 0
     std::vector<double> forward_to{}, backward_to{};  ///< of 0 < v <= each of some speeds, and of -speed <= v < 0
   };
   Speeds speeds(const Vector& p, std::span<const double> sizes) const;

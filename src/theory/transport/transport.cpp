@@ -563,7 +563,7 @@ VelocityDistribution Transport::velocity(const AnySlider& slider, const Transpor
       figures[1] = found.rest;
       for (std::size_t i = 0; i < count; ++i) {
         const auto at = static_cast<Eigen::Index>(2 + i);
-        figures[at] = found.forward_to.back() - found.forward_to[i];
+        figures[at] = found.forward - found.forward_to[i];
         if (backward) figures[at + static_cast<Eigen::Index>(count)] = found.backward - found.backward_to[i];
       }
       return figures;
