@@ -124,7 +124,7 @@ def test_the_law_of_weak_short_and_unequal_motions_is_that_of_simulation(
     for part in (1e-4, 1e-3, 0.01, 0.1, 0.3):
         for sign in (1, -1):
             level = np.quantile(sign * x, 1 - part)
-            if level < 0.05 * np.sqrt(d.variance):  # shorter slips than the simulation resolves
+            if level < 0.12 * np.sqrt(d.variance):  # the grid does not resolve shorter slips
                 continue
             said = 1 - d.cdf(level) if sign > 0 else d.cdf(-level)
             scatter = 4.5 * math.sqrt(part * (1 - part) / members)
