@@ -341,7 +341,7 @@ def law_row(law: Law, members: int) -> tuple[list[str], list[bool]]:
     scatter = math.sqrt((4 * still[1] * (1 - still[1]) + still[0] * (1 - still[0])) / members)
     atom = 2 * still[1] - still[0]
     cells = [law.name, f"{d.atom:.4f} ± {d.atom_error:.4f}", f"{max(atom, 0):.4f}"]
-    covered = [abs(d.atom - atom) <= d.atom_error + 3 * scatter + 0.02 * atom]
+    covered = [abs(d.atom - atom) <= d.atom_error + 3 * scatter + 0.003]  # of the extrapolation
     sizes = np.sort(np.abs(fine))
     for part in PARTS:
         level = float(sizes[-round(part * members) - 1])
