@@ -71,6 +71,7 @@
 #include "stickslip/theory/shaping_filter.hpp"
 #include "stickslip/theory/slowly_varying_parameters.hpp"
 #include "stickslip/theory/stationary_linearization.hpp"
+#include "stickslip/theory/stationary_velocity.hpp"
 #include "stickslip/theory/theory.hpp"
 #include "stickslip/theory/transport.hpp"
 #include "stickslip/theory/velocity_distribution.hpp"

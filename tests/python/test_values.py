@@ -420,6 +420,12 @@ EXAMPLES = {
     theory.Transport: [theory.Transport(), theory.Transport(tolerance=0.1)],
     theory.TransportPrediction: CARRIED,
     theory.VelocityDistribution: [CARRIED[0].velocity(t) for t in (1, 2)],
+    theory.StationaryVelocity: [
+        theory.StationaryVelocity(BLOCK, 0.3),
+        theory.StationaryVelocity(
+            ss.Stribeck(static=1.3, kinetic=0.8, velocity=0.3, exponent=1), 0.3
+        ),
+    ],
     theory.TransportCost: [one.cost for one in CARRIED],
     theory.TransportStationary: [one.stationary for one in CARRIED],
     theory.TransportPeak: [CARRIED[0].peak(t) for t in (1, 2)],

@@ -1,11 +1,18 @@
 #include "stickslip/theory/white_noise.hpp"
 
 #include "parts.hpp"
+#include "stickslip/theory/stationary_velocity.hpp"
 #include "theory/theory.hpp"
 
 namespace stickslip::python {
+
+template <>
+inline constexpr auto parts<theory::StationaryVelocity> = std::tuple(&theory::StationaryVelocity::slider,
+                                                                     &theory::StationaryVelocity::s0);
+
 namespace {
 
+using theory::StationaryVelocity;
 using theory::WhiteNoise;
 
 auto by_one(const char* name, double (WhiteNoise::*f)(double) const) {
@@ -20,9 +27,73 @@ WhiteNoise of_slider(const AnySlider& slider, const AnyNoise& s0, int dimensions
   return {*coulomb, white_level(s0), dimensions};
 }
 
+void bind_stationary_velocity(py::module_& m) {
+  value_class<StationaryVelocity>(m, "StationaryVelocity", R"(The stationary velocity under white noise, exactly.
+
+Of a slider whose friction depends on its speed alone, with or without a damper. The velocity is a diffusion in a
+potential, dv = -f(v) dt + sqrt(2 D) dW, D = pi S0, U' = f, p(v) ~ exp(-U(v) / D), where f is the resistance with the sign
+of v. The variance of x grows at (2 / D) int G(v)^2 / p(v) dv, G(v) = int_v^inf (u - mean) p(u) du. For Coulomb friction
+these are the values of `WhiteNoise`.
+
+Parameters
+----------
+slider : Slider or friction law
+    Coulomb, VelocityDependent or Stribeck, on level ground, without spring and stops; a damper is optional, one-way
+    sliding too. Static friction above kinetic has no effect under white noise: give the kinetic law.
+s0 : float, Spectrum or GaussianExcitation
+    Level S0 of the white ground acceleration, two-sided [m^2/s^3], positive and finite; or a white spectrum or
+    excitation.
+
+Raises
+------
+ValueError
+    Another slider; friction that does not bound the velocity; s0 out of range, noise that is not white.
+
+Notes
+-----
+Accurate to some 1e-13; takes some milliseconds, and 1 us for a density.
+
+References
+----------
+H. Risken, The Fokker-Planck Equation (1989), 5.2; dry and viscous friction: H. Touchette, T. Prellberg, W. Just, J. Phys.
+A 45 (2012), 395002.)")
+      .def(py::init(
+               [](const AnySlider& slider, const AnyNoise& s0) { return StationaryVelocity(slider, white_level(s0)); }),
+           py::arg("slider"), py::arg("s0"))
+      .def_property_readonly("slider", &StationaryVelocity::slider, "The slider.")
+      .def_property_readonly("s0", &StationaryVelocity::s0, "Level of the white noise [m^2/s^3].")
+      .def_property_readonly("mean", &StationaryVelocity::mean, "Mean velocity, the drift [m/s].")
+      .def_property_readonly("mean_speed", &StationaryVelocity::mean_speed, "Mean of |v| [m/s].")
+      .def_property_readonly("variance", &StationaryVelocity::variance, "Variance of the velocity [m^2/s^2].")
+      .def_property_readonly("growth_rate", &StationaryVelocity::growth_rate,
+                             "Growth of the variance of the displacement [m^2/s].")
+      .def(
+          "density",
+          [](const StationaryVelocity& self, const py::object& velocity) {
+            return of_each(velocity, "StationaryVelocity: velocity", [&](double v) { return self.density(v); });
+          },
+          py::arg("velocity"),
+          R"(Probability density of the velocity.
+
+Parameters
+----------
+velocity : array_like
+    Velocities [m/s].
+
+Returns
+-------
+float or numpy.ndarray
+    Density [s/m], of the shape of velocity.)")
+      .def("__repr__", [](const StationaryVelocity& self) {
+        return "StationaryVelocity(" + py::repr(py::cast(self.slider())).cast<std::string>() +
+               ", s0=" + detail::shortest(self.s0()) + ")";
+      });
+}
+
 }  // namespace
 
 void bind_white_noise(py::module_& m) {
+  bind_stationary_velocity(m);
   auto type =
       value_class<WhiteNoise>(m, "WhiteNoise", R"(Coulomb friction without a spring under white noise, exactly.
 

@@ -82,17 +82,21 @@ template <class Flows>
   ToSink<Sink> observer(sink);
   advance(flows, segment, bounds, contact, state, observer);
 }
-template <class Flows, class Observer>
-[[gnu::always_inline]] inline void advance_in_steps(const Flows& flows, const Segment& segment, State& state,
-                                                    Observer& observer, Sink& sink) {
-  if (!pass_in_one_step(flows, load_of(segment), Unbounded{}, state, observer))
+template <class Flows, class Place, class Observer>
+[[gnu::always_inline]] inline void advance_in_steps(const Flows& flows, const Segment& segment, Place& state,
+                                                    Observer& observer, [[maybe_unused]] Sink& sink) {
+  if constexpr (!passes_in_one_step<typename Flows::Law>)
+    advance(flows, segment, state, observer);
+  else if (!pass_in_one_step(flows, load_of(segment), Unbounded{}, state, observer))
     advance_apart(flows, segment, state, sink);
 }
-template <class Flows, class Observer>
+template <class Flows, class Place, class Observer>
 [[gnu::always_inline]] inline void advance_in_steps(const Flows& flows, const LoadSegment& segment,
-                                                    const Bounds& bounds, Contact contact, State& state,
-                                                    Observer& observer, Sink& sink) {
-  if (!pass_in_one_step(flows, segment, bounds, state, observer))
+                                                    const Bounds& bounds, Contact contact, Place& state,
+                                                    Observer& observer, [[maybe_unused]] Sink& sink) {
+  if constexpr (!passes_in_one_step<typename Flows::Law>)
+    advance(flows, segment, bounds, contact, state, observer);
+  else if (!pass_in_one_step(flows, segment, bounds, state, observer))
     advance_apart(flows, segment, bounds, contact, state, sink);
 }
 
@@ -191,10 +195,7 @@ void EngineOf<Law>::move(Segments<Segment>& segments, double usual_duration, Sta
   with_flows(slider_, false, usual_duration, [&]<class Flows>(const Flows& flows) {
     move_as<Flows, typename Flows::Place>(segments, state, sink,
                                           [&flows, &sink](const Segment& segment, auto& place, auto& observer) {
-                                            if constexpr (passes_in_one_step<Law>)
-                                              advance_in_steps(flows, segment, place, observer, sink);
-                                            else
-                                              advance(flows, segment, place, observer);
+                                            advance_in_steps(flows, segment, place, observer, sink);
                                           });
   });
 }
@@ -207,10 +208,7 @@ void EngineOf<Law>::move(Segments<LoadSegment>& segments, double usual_duration,
     move_as<Flows, StateOf<Law>>(
         segments, state, sink,
         [&flows, &sink, bounds, contact](const LoadSegment& segment, auto& place, auto& observer) {
-          if constexpr (passes_in_one_step<Law>)
-            advance_in_steps(flows, segment, bounds, contact, place, observer, sink);
-          else
-            advance(flows, segment, bounds, contact, place, observer);
+          advance_in_steps(flows, segment, bounds, contact, place, observer, sink);
         });
   });
 }
@@ -254,12 +252,8 @@ void EngineOf<Law>::record_any(const GroundMotion& motion, State& state, AnySink
     SampledSegments segments(GroundMotion::Pieces(motion), motion.segments(), *this, sink, histories);
     move_any<StateOf<Law>>(
         segments, false, motion.dt(), state, sink,
-        [&sink](const auto& flows, const Segment& segment, auto& place, auto& observer) __attribute__((always_inline)) {
-          if constexpr (passes_in_one_step<Law>)
-            advance_in_steps(flows, segment, place, observer, sink);
-          else
-            advance(flows, segment, place, observer);
-        },
+        [&sink](const auto& flows, const Segment& segment, auto& place, auto& observer)
+            __attribute__((always_inline)) { advance_in_steps(flows, segment, place, observer, sink); },
         [&] { move(segments, motion.dt(), state, sink); });
   }
 }
@@ -273,12 +267,7 @@ void EngineOf<Law>::record_any(const GroundMotion& motion, Contact contact, Stat
   move_any<StateOf<Law>>(
       segments, weighed, motion.dt(), state, sink,
       [ bounds, contact, &sink ](const auto& flows, const LoadSegment& segment, auto& place, auto& observer)
-          __attribute__((always_inline)) {
-            if constexpr (passes_in_one_step<Law>)
-              advance_in_steps(flows, segment, bounds, contact, place, observer, sink);
-            else
-              advance(flows, segment, bounds, contact, place, observer);
-          },
+          __attribute__((always_inline)) { advance_in_steps(flows, segment, bounds, contact, place, observer, sink); },
       [&] { move(segments, motion.dt(), contact, state, sink); });
 }
 /// Where the flows are cheap, with segments and sink inlined into the event loop; otherwise as for any.
