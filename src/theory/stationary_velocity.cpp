@@ -44,8 +44,7 @@ double resistance(const AnySlider& slider, double speed, Direction direction) {
           return resist(s.law(), 0.0, speed, direction) + s.damping() * speed;
         else
           throw std::invalid_argument(
-              "StationaryVelocity: covers friction that depends on the speed alone: Coulomb, VelocityDependent and "
-              "Stribeck");
+              "StationaryVelocity: covers friction that is constant or depends on the speed alone");
       },
       slider);
 }

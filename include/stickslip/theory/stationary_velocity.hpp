@@ -27,7 +27,7 @@ namespace stickslip::theory {
 /// W. Just, J. Phys. A 45 (2012), 395002.
 class StationaryVelocity {
  public:
-  /// @param slider  a law whose friction depends on the speed alone (Coulomb, VelocityDependent, Stribeck), on level
+  /// @param slider  a law whose friction is constant or depends on the speed alone, on level
   ///                ground, without spring and stops; a damper is optional. Backward sliding may be excluded
   /// @param s0      level S0 of the white ground acceleration, two-sided [m^2/s^3], positive and finite, or a white
   ///                Spectrum

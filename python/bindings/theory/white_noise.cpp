@@ -38,8 +38,8 @@ these are the values of `WhiteNoise`.
 Parameters
 ----------
 slider : Slider or friction law
-    Coulomb, VelocityDependent or Stribeck, on level ground, without spring and stops; a damper is optional, one-way
-    sliding too. Static friction above kinetic has no effect under white noise: give the kinetic law.
+    Friction that is constant or depends on the speed alone, on level ground, without spring and stops; a damper is
+    optional, one-way sliding too. Static friction above kinetic has no effect under white noise: give the kinetic law.
 s0 : float, Spectrum or GaussianExcitation
     Level S0 of the white ground acceleration, two-sided [m^2/s^3], positive and finite; or a white spectrum or
     excitation.
