@@ -62,26 +62,20 @@ double climb(const AnySlider& slider, Direction direction, double noise, double 
 StationaryVelocity::StationaryVelocity(const AnySlider& slider, WhiteLevel s0) : slider_(slider), s0_(s0.s0()) {
   const double noise = std::numbers::pi * s0_, scale = scale_of(slider_);
   (void)resistance(slider_, 0, Direction::forward);  // refuses laws
-  std::visit(
-      [](const auto& s) {
-        const Mounting& on = s.mounting();
-        if (s.stiffness() > 0 || on.slope_degrees > 0 || std::isfinite(on.stops.forward()) ||
-            std::isfinite(on.stops.backward()))
-          throw std::invalid_argument(
-              "StationaryVelocity: covers sliders on level ground, without a spring and without stops");
-      },
-      slider_);
-  const bool one_way = std::visit([](const auto& s) { return s.mounting().one_way; }, slider_);
+  const Mounting& on = mounting_of(slider_);
+  if (on.stiffness() > 0 || on.slope_degrees > 0 || std::isfinite(on.stops.forward()) ||
+      std::isfinite(on.stops.backward()))
+    throw std::invalid_argument(
+        "StationaryVelocity: covers sliders on level ground, without a spring and without stops");
   constexpr double farthest = 90;  // in U / D: beyond lies a probability below 1e-38
   const auto lay = [&](Side& side, Direction direction) {
     double v = 0, u = 0;
     side = {{0}, {0}};
-    if (direction == Direction::backward && (one_way || !std::isfinite(resistance(slider_, 0, direction)))) return;
-    const double damping = std::visit([](const auto& s) { return s.damping(); }, slider_);
+    if (direction == Direction::backward && (on.one_way || !std::isfinite(resistance(slider_, 0, direction)))) return;
     while (u < farthest) {
       const double here = resistance(slider_, v, direction);
       double width = std::min(scale / 8, here > 0 ? noise / here : std::numeric_limits<double>::infinity());
-      if (damping > 0) width = std::min(width, std::sqrt(noise / damping) / 2);
+      if (on.damping > 0) width = std::min(width, std::sqrt(noise / on.damping) / 2);
       detail::require(std::isfinite(width) && side.speed.size() < 100'000,
                       "StationaryVelocity: friction must bound the velocity; the resistance at high speed", here,
                       "m/s^2");

@@ -485,17 +485,18 @@ DisplacementDistribution Transport::displacement(const AnySlider& slider, const 
                             });
   };
   const bool both = !problem.one_way();
-  for (int wider = 0; wider < 5; ++wider) {
+  double end = 0;
+  for (int wider = 0;; ++wider) {
     const Chain coarse = problem.chain(step, 0, window);
-    const double end = 0.9 * coarse.farthest();
-    const Figures found = law(coarse, std::array{-end, end});
+    end = coarse.farthest();
+    if (wider == 5) break;
+    const Figures found = law(coarse, std::array{-0.9 * end, 0.9 * end});
     if (std::abs(1 - found[1]) + std::abs(found[0]) < beyond) break;
     window.x *= 1.4;
   }
   // The probabilities of at most each of some values below 0, and of more than each of some above it: so that errors in
   // the tails are small.
   constexpr std::size_t count = 40;
-  const double end = problem.chain(step, 0, window).farthest();
   std::vector<double> points;
   for (std::size_t i = count; both && i > 0; --i)
     points.push_back(-end * std::pow(static_cast<double>(i) / count, 2.5));
