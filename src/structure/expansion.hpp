@@ -34,16 +34,6 @@ struct GroundLoad {
 
 using Polynomial = std::array<double, series::highest_order + 1>;
 
-/// The first zero in [0, 1] of a polynomial that is at least 0 just after 0; `never` if there is none. Zeros at 0 are
-/// divided out; if it is negative just after them, the zero is at 0.
-inline double first_zero(const double* c, int degree) {
-  int zeros = 0;
-  while (zeros <= degree && equal(c[zeros], 0)) ++zeros;
-  if (zeros > degree) return never;
-  if (c[zeros] < 0) return 0;
-  return FirstRoot(c + zeros, degree - zeros).find();
-}
-
 inline double value_at(const double* c, int degree, double u) {
   double value = 0;
   for (int k = degree; k >= 0; --k) value = value * u + c[k];

@@ -25,7 +25,7 @@ struct Flows {
   template <class Flow>
   void follow(const Flow& flow, double last, double) {
     ++number;
-    const auto done = flow.work(last);
+    const auto done = detail::work(flow, last);
     work += done.friction + done.damper - done.load;
   }
 };

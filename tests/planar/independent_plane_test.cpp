@@ -89,11 +89,11 @@ struct Sums {
   void lose(double energy) { lost += energy; }
   template <class Flow>
   void follow(const Flow& flow, double last, double) {
-    const auto work = flow.work(last);
+    const auto work = detail::work(flow, last);
     input += work.load, dissipated += work.friction, damped += work.damper;
     path += flow.at_parameter(last).distance;
     double where = 0;
-    peak = std::max(peak, flow.largest_radius(last, peak, where));
+    peak = std::max(peak, detail::largest_radius(flow, last, peak, where));
   }
 };
 

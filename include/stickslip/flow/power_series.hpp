@@ -110,6 +110,16 @@ class FirstRoot {
 
 namespace detail {
 
+/// The first zero in [0, 1] of a polynomial that is at least 0 just after 0; `never` if there is none. Zeros at 0 are
+/// divided out; if it is negative just after them, the zero is at 0.
+inline double first_zero(const double* c, int degree) noexcept {
+  int zeros = 0;
+  while (zeros <= degree && equal(c[zeros], 0)) ++zeros;
+  if (zeros > degree) return never;
+  if (c[zeros] < 0) return 0;
+  return FirstRoot(c + zeros, degree - zeros).find();
+}
+
 /// The change of a load since the start of a flow, as a power series: linear in time.
 class GainSeries {
  public:

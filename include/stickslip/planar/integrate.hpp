@@ -17,6 +17,9 @@
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/planar/advance.hpp"
 #include "stickslip/planar/detail/engine.hpp"
+#include "stickslip/planar/detail/radius.hpp"
+#include "stickslip/planar/detail/work.hpp"
+#include "stickslip/planar/path.hpp"
 #include "stickslip/planar/response.hpp"
 #include "stickslip/planar/slider.hpp"
 #include "stickslip/run/detail/event_log.hpp"
@@ -118,17 +121,17 @@ class PlanarRecorder final : public PlanarSink, public EventLog<Vector2>, public
     response_.peak_displacement = start;
   }
 
-  void follow(const PlanarSlipFlow& flow, double last, double begin) override {
+  void follow(const PlanarPath& path, double last, double begin) override {
     count_work();
-    const PlanarProgress end = flow.at_parameter(last);
+    const PlanarProgress end = path.at_parameter(last);
     double where = last;
-    if (const double radius = flow.largest_radius(last, response_.peak, where); radius > response_.peak) {
-      const PlanarProgress at = flow.at_parameter(where);
+    if (const double radius = largest_radius(path, last, response_.peak, where); radius > response_.peak) {
+      const PlanarProgress at = path.at_parameter(where);
       response_.peak = radius;
-      response_.peak_displacement = flow.place() + at.way;
+      response_.peak_displacement = path.place + at.way;
       response_.peak_time = segment_begins() + begin + at.time;
     }
-    const auto work = flow.work(last);
+    const auto work = detail::work(path, last);
     response_.energy.input += work.load;
     response_.energy.dissipated += work.friction;
     response_.energy.damped += work.damper;
@@ -155,7 +158,7 @@ class NoPlanarRecorder final : public PlanarSink, public Pace<4096> {
       : Pace(progress), events_(event_limit) {}
 
   void begin_segment(double, double) const noexcept {}
-  void follow(const PlanarSlipFlow&, double, double) override { count_work(); }
+  void follow(const PlanarPath&, double, double) override { count_work(); }
   void event(EventKind, double, const PlanarState&) override {
     count_work();
     ++events_;
@@ -172,7 +175,7 @@ class PlaneRun {
   using Response = PlanarResponse;
   using Recorder = PlanarRecorder;
   struct NoSink final : PlanarSink {
-    void follow(const PlanarSlipFlow&, double, double) override {}
+    void follow(const PlanarPath&, double, double) override {}
     void event(EventKind, double, const PlanarState&) override {}
   };
 

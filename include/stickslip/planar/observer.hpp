@@ -7,7 +7,7 @@
 namespace stickslip {
 
 /// Receives each event of a motion in the plane while it is computed; times are measured from the start of the segment
-/// [s]. If it has `follow(flow, last, begin)`, it also receives each PlanarFlow, its last parameter, and the time at
+/// [s]. If it has `follow(flow, last, begin)`, it also receives each PlanarPath, its last parameter, and the time at
 /// which it begins.
 template <class Observer>
 concept PlanarObserver = requires(Observer& observer, double time, EventKind kind, const PlanarState& state) {

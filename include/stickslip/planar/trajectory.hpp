@@ -9,7 +9,9 @@
 #include "stickslip/base/equal.hpp"
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/ground/ground_motion.hpp"
+#include "stickslip/planar/detail/radius.hpp"
 #include "stickslip/planar/integrate.hpp"
+#include "stickslip/planar/path.hpp"
 #include "stickslip/planar/response.hpp"
 #include "stickslip/planar/slider.hpp"
 #include "stickslip/planar/state.hpp"
@@ -22,22 +24,21 @@ namespace stickslip {
 /// from 0 to `last` stands for the time.
 class PlanarArc {
  public:
-  PlanarArc(const detail::PlanarSlipFlow& flow, double end, double time)
-      : begin(time), last(end), place(flow.place()), flow_(flow) {}
+  PlanarArc(const PlanarPath& path, double end, double time) : begin(time), last(end), place(path.place), path_(path) {}
 
   double begin;   ///< since the beginning of the segment [s]
   double last;    ///< largest parameter
   Vector2 place;  ///< r at its beginning [m]
 
   /// Time and displacement since the beginning of the arc, velocity, and length of the path.
-  PlanarProgress at(double parameter) const { return flow_.at_parameter(parameter); }
+  PlanarProgress at(double parameter) const { return path_.at_parameter(parameter); }
   /// r'' [m/s^2]; at a stop, its limit.
-  Vector2 acceleration(double parameter) const { return flow_.acceleration_at(parameter); }
+  Vector2 acceleration(double parameter) const { return path_.acceleration_at(parameter); }
   /// The largest distance from the origin [m]; `where` receives its parameter.
-  double largest_radius(double& where) const { return flow_.largest_radius(last, 0, where); }
+  double largest_radius(double& where) const { return detail::largest_radius(path_, last, 0, where); }
 
  private:
-  detail::PlanarSlipFlow flow_;
+  const PlanarPath& path_;
 };
 
 /// Receives a motion in the plane, segment by segment, while it is integrated again. The slider rests in the time that
@@ -60,9 +61,7 @@ class PlanarTracer final : public PlanarSink {
   explicit PlanarTracer(PlanarTrajectoryReader& reader) noexcept : reader_(reader) {}
 
   void event(EventKind kind, double time, const PlanarState& state) override { reader_.event(kind, time, state); }
-  void follow(const PlanarSlipFlow& flow, double last, double begin) override {
-    reader_.arc(PlanarArc(flow, last, begin));
-  }
+  void follow(const PlanarPath& path, double last, double begin) override { reader_.arc(PlanarArc(path, last, begin)); }
 
  private:
   PlanarTrajectoryReader& reader_;

@@ -13,7 +13,9 @@
 #include "stickslip/ensemble/member.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/planar/any_planar_slider.hpp"
+#include "stickslip/planar/detail/radius.hpp"
 #include "stickslip/planar/integrate.hpp"
+#include "stickslip/planar/path.hpp"
 #include "stickslip/sliding/impacts.hpp"
 
 namespace stickslip::detail {
@@ -38,10 +40,10 @@ class PlanarPeakObserver final : public PlanarSink, public MemberTally {
  public:
   using MemberTally::MemberTally;
 
-  void follow(const PlanarSlipFlow& flow, double last, double) override {
+  void follow(const PlanarPath& path, double last, double) override {
     count_work();
     double where = last;
-    reach(flow.largest_radius(last, peak(), where));
+    reach(largest_radius(path, last, peak(), where));
   }
   void event(EventKind kind, double, const PlanarState& state) override {
     const double radius = norm(state.displacement);

@@ -82,7 +82,7 @@ class Heating {
       for (int sweep = 0; sweep < 30 && !settled; ++sweep) {
         slip.emplace(make(HeatedStep<Law>(law_, level.powers(), step), step));
         const auto& flow = slip->flow;
-        if (!flow.is_series() || !(flow.horizon() > 0)) {  // so close to a stop that no heat matters
+        if (!flow.is_series() || !(flow.end.time > 0)) {  // so close to a stop that no heat matters
           heats_ = false;
           return *slip;
         }
@@ -93,7 +93,7 @@ class Heating {
       }
       const double heaviest = std::max(weight(0), weight(step));
       const bool resolved = settled && step * heaviest * level.error() <= 1e-8 * std::max(fastest, slowest);
-      const double reached = slip->flow.horizon();
+      const double reached = slip->flow.end.time;
       const bool whole = covers_whole(slip->flow, step);
       if ((resolved && whole) || shortened > 60) {
         heat_ = level.heat();
@@ -105,7 +105,7 @@ class Heating {
       if (whole)
         step /= 2;
       else
-        step = (slip->flow.stop() < never || slip->flow.leaves() ? 1.02 : 0.98) *
+        step = (slip->flow.stop() < never || slip->flow.leaves ? 1.02 : 0.98) *
                reached;  // where it stops, no heat follows
     }
   }
@@ -160,7 +160,7 @@ class Heating {
   // Whether a slip lasts for a step, or stops, or leaves a stop, shortly before its end.
   template <class Flow>
   static bool covers_whole(const Flow& flow, double step) noexcept {
-    return flow.horizon() >= step * (flow.stop() < never || flow.leaves() ? 0.9 : 1 - 1e-9);
+    return flow.end.time >= step * (flow.stop() < never || flow.leaves ? 0.9 : 1 - 1e-9);
   }
 
   const Law& law_;

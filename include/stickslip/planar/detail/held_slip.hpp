@@ -21,11 +21,6 @@ struct PlanarProgress {
 
 namespace detail {
 
-/// The work of the load on a slider, and that against friction and on the damper, per unit mass [m^2/s^2].
-struct PlanarWork {
-  double load = 0, friction = 0, damper = 0;
-};
-
 /// A slip under a constant load Q and a constant level a,
 ///     r'' + a r'/u = Q,   u = |r'|.
 /// In regularized time, dt = u d tau, three velocities are exponentials: u + v_q, u - v_q and the velocity across the

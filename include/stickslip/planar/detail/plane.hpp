@@ -12,6 +12,8 @@
 #include "stickslip/friction/law.hpp"
 #include "stickslip/planar/detail/departure.hpp"
 #include "stickslip/planar/detail/heated.hpp"
+#include "stickslip/planar/detail/level_along.hpp"
+#include "stickslip/planar/detail/radius.hpp"
 #include "stickslip/planar/flow.hpp"
 #include "stickslip/planar/observer.hpp"
 #include "stickslip/planar/segment.hpp"
@@ -40,7 +42,7 @@ struct PlanarSlide {
   template <class... Arguments>
   PlanarSlide(const Law& now, const Mounting& mounting, Arguments&&... arguments)
       : law(now), flow(mounting, law, std::forward<Arguments>(arguments)...), stop(flow.stop()) {}
-  PlanarLeg whole() const noexcept { return {flow.last(), flow.at_horizon()}; }
+  PlanarLeg whole() const noexcept { return {flow.last, flow.end}; }
   PlanarLeg until(double) const noexcept { return whole(); }
 };
 
@@ -156,7 +158,7 @@ class Plane {
         return over(std::remove_cvref_t<decltype(law_now())>(law_now()), left_);
       }
     }();
-    state_.mode = slide.flow.along_stop() ? PlanarMode::along_stop : PlanarMode::sliding;
+    state_.mode = slide.flow.along_stop ? PlanarMode::along_stop : PlanarMode::sliding;
     return slide;
   }
 
@@ -170,12 +172,12 @@ class Plane {
     };
     if constexpr (heated) {
       const double edge = slider_.law().edge();
-      if (edge < never) shorten(flow.parameter_at_radius(edge, covers()), true);
+      if (edge < never) shorten(parameter_at_radius(flow, edge, covers()), true);
     } else if constexpr (MemoryLaw<Law>) {
       const double ahead = slider_.law().ahead(along_path(), Direction::forward);
-      if (ahead < flow.at_horizon().distance) shorten(flow.parameter_at_distance(ahead, flow.last()), true);
+      if (ahead < flow.end.distance) shorten(flow.parameter_at_distance(ahead, flow.last), true);
     }
-    if (gap_ < never && !flow.along_stop()) shorten(flow.parameter_at_radius(gap_, true), false);
+    if (gap_ < never && !flow.along_stop) shorten(parameter_at_radius(flow, gap_, true), false);
     return passage;
   }
 
@@ -232,7 +234,7 @@ class Plane {
       arrived_ = slide.flow.at_parameter(leg.last / 2).velocity;
     }
     rest();
-    turned_ = slide.flow.turns();
+    turned_ = slide.flow.turns;
   }
 
   [[noreturn, gnu::noinline]] void stall() const {
