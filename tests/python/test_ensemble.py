@@ -833,10 +833,10 @@ def test_what_progress_raises_ends_the_run_and_keeps_what_is_done(tmp_path):
             raise RuntimeError("enough")
 
     file = tmp_path / "run.npz"
-    run = dict(members=MANY, seed=1, threads=2)
+    run = dict(members=2_000, seed=1, threads=2)
     with pytest.raises(RuntimeError, match="enough"):
         ss.run_ensemble(BLOCK, SLOW, **run, progress=stop, checkpoint=file)
-    assert 0 < ss.Ensemble.load(file).members < MANY
+    assert 0 < ss.Ensemble.load(file).members < 2_000
     assert same_bits(
         ss.run_ensemble(BLOCK, Delayed(), **run, checkpoint=file),
         ss.run_ensemble(BLOCK, Delayed(), **run),

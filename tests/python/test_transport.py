@@ -38,7 +38,7 @@ SLOW = pytest.mark.slow
         pytest.param(ss.Slider(STRIBECK), 9, marks=SLOW),
         (ss.Slider(ss.StaticKinetic(BLOCK, static=1.3)), 10),
         pytest.param(ss.Slider(BLOCK, one_way=True), 11, marks=SLOW),
-        (ss.Slider(ss.Coulomb(slip_level=1.9), slope_degrees=5), 12),
+        pytest.param(ss.Slider(ss.Coulomb(slip_level=1.9), slope_degrees=5), 12, marks=SLOW),
     ],
     ids=[
         "block",
@@ -100,7 +100,7 @@ def test_the_distribution_is_that_of_simulation():
 @pytest.mark.parametrize(
     ("strength", "backward", "frequency", "time"),
     [
-        (0.5, 1.0, 0.0, 5.0),  # most have not slipped
+        pytest.param(0.5, 1.0, 0.0, 5.0, marks=SLOW),  # most have not slipped
         pytest.param(1.5, 1.0, 0.0, 2.0, marks=SLOW),
         pytest.param(0.8, math.inf, 0.0, 10.0, marks=SLOW),
         pytest.param(0.6, 1.0, 0.5, 15.0, marks=SLOW),
@@ -236,6 +236,7 @@ def test_a_caster_under_white_noise_is_that_of_simulation():
         assert np.all(np.abs(getattr(p, name) - getattr(e, name)[1:]) <= error)
 
 
+@SLOW
 def test_a_caster_of_short_reach_is_not_free_of_friction():
     # docs/errata.md, after (3.51): a free mass has E[x^2] = 2 pi S0 t^3 / 3.
     times = np.array([5.0, 10.0, 20.0])

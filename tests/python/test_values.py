@@ -538,6 +538,7 @@ def test_pickled_and_copied_all_is_the_same_to_the_bit(kind):
             is_same(twin, thing, expected)
 
 
+@pytest.mark.slow
 def test_all_go_through_other_processes():
     things = [example for examples in EXAMPLES.values() for example in examples]
     with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
