@@ -76,11 +76,15 @@ class ForcesReader final : public TrajectoryReader {
     if (arc.rests()) {
       forces.friction[i] = load - forces.spring[i];
     } else {
-      State there = arc.at(t);
-      there.displacement = x;
-      there.velocity = v;
       const Direction direction = direction_of(arc.start.mode);
-      forces.friction[i] = sign(direction) * weigh(weight, trajectory_.resist(there, weight, direction)) + 0.0;
+      const auto resists = [&] {
+        if (trajectory_.has_constant_level()) return trajectory_.resist(arc.start, weight, direction);
+        State there = arc.at(t);
+        there.displacement = x;
+        there.velocity = v;
+        return trajectory_.resist(there, weight, direction);
+      };
+      forces.friction[i] = sign(direction) * weigh(weight, resists()) + 0.0;
     }
   }
 

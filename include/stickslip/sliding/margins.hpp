@@ -54,10 +54,15 @@ class MarginReader final : public TrajectoryReader {
   void arc(const Arc& arc) override {
     for (const double t : {0.0, arc.duration}) {
       const Load load = arc.load(t);
-      std::erase_if(departures_, [&](Departed& one) { return passes(one, load); });
+      if (!departures_.empty()) std::erase_if(departures_, [&](Departed& one) { return passes(one, load); });
       if (!arc.rests()) continue;
-      const State at = arc.at(t);
-      for (Approach& one : approaches_) approach(one, at, load);
+      const auto approach_at = [&](const State& at) {
+        for (Approach& one : approaches_) approach(one, at, load);
+      };
+      if (arc.changes())
+        approach_at(arc.at(t));
+      else  // no copy
+        approach_at(arc.start);
     }
     rested_ = arc.rests();
   }

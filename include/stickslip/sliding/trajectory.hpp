@@ -77,6 +77,9 @@ class Arc {
     return rests() ? 0 : sign(direction_of(start.mode)) * flow_.at(t).acceleration;
   }
 
+  /// Whether the state changes during the arc.
+  bool changes() const noexcept { return !rests() || start.in_flight || start.heat.warm(); }
+
   /// The state at a time, with the memory of the law.
   State at(double t) const {
     State state = start;
@@ -153,6 +156,8 @@ class Trajectory {
   double elastic(const State& state) const {
     return mounting().stiffness() * state.displacement * state.displacement / 2 + engine_.elastic(state);
   }
+  /// Whether the law has constant levels.
+  bool has_constant_level() const noexcept { return engine_.law().constant; }
   /// Whether a spring draws the slider back.
   bool has_spring() const noexcept { return mounting().stiffness() > 0 || engine_.law().springs; }
 
@@ -201,9 +206,9 @@ class Tracer final : public Sink {
     begin_segment(begin, end, LoadSegment{wave.duration, 0, 0, standard_gravity, standard_gravity});
     wave_ = wave;
   }
-  void end_segment(const State& state) {
+  void end_segment(const StateView& now) {
     rest(line_.duration);
-    state_ = state;
+    now.store(state_);
   }
   void finish() { reader_.event(EventKind::end, end_, state_, load(line_.duration)); }
 
@@ -291,7 +296,7 @@ class TracedSegments final : public Segments<LoadSegment> {
   }
 
   bool next(const StateView& now, LoadSegment& segment) override {
-    if (begun_) tracer_.end_segment(now.state());
+    if (begun_) tracer_.end_segment(now);
     if (!(now_ < until_)) return false;
     begun_ = true;
     const double begin = now_;
@@ -323,7 +328,7 @@ class TracedWaves final : public Segments<HarmonicSegment> {
       : motion_(motion), begin_(motion.time(0)), until_(until), tracer_(tracer) {}
 
   bool next(const StateView& now, HarmonicSegment& segment) override {
-    if (crests_ > 0) tracer_.end_segment(now.state());
+    if (crests_ > 0) tracer_.end_segment(now);
     const double last = motion_.time(motion_.segments());
     if (!(begin_ < std::min(last, until_))) return false;
     const double end = std::min(++crests_ * (motion_.period() / 2), last);

@@ -123,6 +123,13 @@ class StateView : public BareState {
 
   /// With the memory of the law.
   State state() const { return whole_ != nullptr ? *whole_ : State(*this); }
+  /// Replaces what differs in a state with the same law's memory.
+  void store(State& state) const {
+    if (whole_ != nullptr)
+      state = *whole_;
+    else
+      BareState::store(state);
+  }
 
  private:
   const State* whole_ = nullptr;
