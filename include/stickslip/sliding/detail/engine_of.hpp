@@ -224,32 +224,22 @@ void EngineOf<Law>::move(Segments<HarmonicSegment>& segments, double omega, doub
   });
 }
 
-/// Coulomb friction on level ground, where a few nanoseconds matter: the sink is inlined into the event loop.
-template <class Flows, class AnySink>
-[[gnu::flatten]] void record_block(const Flows& flows, const GroundMotion& motion, State& state, AnySink& sink,
-                                   const HistorySpans& histories) {
-  ToSink<AnySink> observer(sink);
-  BareState moving(state);
-  walk(
-      motion, AnySink::work_per_report,
-      [&](std::size_t i, double begin, double end, const Segment& segment) {
-        sink.begin_segment(begin, end);
-        advance(flows, segment, moving, observer);
-        histories.keep(i + 1, moving);
-      },
-      [&] { sink.report_progress(); });
-  store(moving, state);
-}
-
 template <FrictionLaw Law>
 template <class AnySink>
 void EngineOf<Law>::record_any(const GroundMotion& motion, State& state, AnySink& sink,
                                const HistorySpans& histories) const {
+  SampledSegments segments(GroundMotion::Pieces(motion), motion.segments(), *this, sink, histories);
   if constexpr (std::same_as<Law, Coulomb>) {
-    with_block_flows(slider_, motion.dt(),
-                     [&](const auto& flows) { record_block(flows, motion, state, sink, histories); });
+    with_block_flows(slider_, motion.dt(), [&](const auto& flows) {
+      BareState moving(state);
+      move_inlined(
+          segments, moving,
+          sink, [&](const Segment& segment, auto& place, auto& observer) __attribute__((always_inline)) {
+            advance(flows, segment, place, observer);
+          });
+      store(moving, state);
+    });
   } else {
-    SampledSegments segments(GroundMotion::Pieces(motion), motion.segments(), *this, sink, histories);
     move_any<StateOf<Law>>(
         segments, false, motion.dt(), state, sink,
         [&sink](const auto& flows, const Segment& segment, auto& place, auto& observer)

@@ -1,17 +1,20 @@
 // The segments of a whole ground motion, and what is kept at its samples.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 
+#include "stickslip/base/equal.hpp"
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/run/detail/run.hpp"
 #include "stickslip/sliding/detail/engine.hpp"
+#include "stickslip/sliding/detail/resting.hpp"
 #include "stickslip/sliding/detail/sink.hpp"
 #include "stickslip/state.hpp"
 #ifdef STICKSLIP_LIBRARY
@@ -32,6 +35,14 @@ struct HistorySpans : HistorySpansOf<double> {
     keep(sample, state);
     if (!gap.empty() || !temperature.empty()) [[unlikely]]
       keep_rarer(sample, StateView(state), engine);
+  }
+  /// The same of the samples from `first` to the one before `last`, at rest on the ground.
+  template <class Place>
+  void keep(std::size_t first, std::size_t last, const Place& state, const Engine& engine) const {
+    std::ranges::fill(displacement.subspan(first, last - first), state.displacement);
+    std::ranges::fill(velocity.subspan(first, last - first), 0.0);
+    if (!gap.empty() || !temperature.empty()) [[unlikely]]
+      for (std::size_t i = first; i < last; ++i) keep_rarer(i, StateView(state), engine);
   }
 
  private:
@@ -91,15 +102,25 @@ class SampledSegments final : public Segments<AnySegment> {
  public:
   SampledSegments(const Pieces& pieces, std::size_t count, const Engine& engine, AnySink& sink,
                   const HistorySpans& histories)
-      : pieces_(pieces), count_(count), engine_(engine), sink_(sink), histories_(histories), end_(pieces.time(0)) {}
+      : pieces_(pieces),
+        count_(count),
+        engine_(engine),
+        sink_(sink),
+        histories_(histories),
+        end_(pieces.time(0)),
+        resting_(engine) {}
 
   bool next(const StateView& now, AnySegment& segment) override { return give(now, segment); }
   /// The same for a state of any kind, without a view of it.
   template <class Place>
   [[gnu::always_inline]] bool give(const Place& now, AnySegment& segment) {
-    if (i_ > 0) histories_.keep(i_, now, engine_);
-    if (i_ == count_) return false;
-    if (i_ > 0 && i_ % AnySink::work_per_report == 0) sink_.report_progress();
+    if (i_ > 0) {
+      histories_.keep(i_, now, engine_);
+      // A slider that did not move in the last segment may rest for many more.
+      if (now.mode == Mode::stuck && equal(histories_.displacement[i_ - 1], now.displacement)) pass_rests(now);
+      if (i_ == count_) return false;
+      if (i_ % AnySink::work_per_report == 0) sink_.report_progress();
+    }
     const double begin = std::exchange(end_, pieces_.time(i_ + 1));
     sink_.begin_segment(begin, end_);
     segment = pieces_.segment(i_++);
@@ -107,12 +128,29 @@ class SampledSegments final : public Segments<AnySegment> {
   }
 
  private:
+  // The segments in which a slider at rest is certain to stay.
+  template <class Place>
+  [[gnu::noinline]] void pass_rests(const Place& now) {
+    if (i_ == count_ || now.in_flight || !resting_.known()) return;
+    resting_.begin(now);
+    const Pieces pieces = pieces_;
+    const Resting resting = resting_;
+    const std::size_t until = std::min(count_, i_ - i_ % AnySink::work_per_report + AnySink::work_per_report);
+    std::size_t i = i_;
+    while (i < until && resting.holds(pieces.segment(i))) ++i;
+    if (i == i_) return;
+    histories_.keep(i_ + 1, i + 1, now, engine_);
+    i_ = i;
+    end_ = pieces.time(i);
+  }
+
   Pieces pieces_;
-  std::size_t count_, i_ = 0;  // segments given
+  std::size_t count_, i_ = 0;  // segments given, or passed at rest
   const Engine& engine_;
   AnySink& sink_;
   HistorySpans histories_;
   double end_;  // of the last segment [s]
+  Resting resting_;
 };
 
 /// Minimum number of segments into which a motion is split: for a harmonic motion at least one per period, so that
