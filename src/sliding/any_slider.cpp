@@ -31,8 +31,9 @@ Response integrate(const AnySlider& slider, const HarmonicMotion& motion, const 
   return std::visit([&](const auto& one) { return integrate(one, motion, options, std::move(storage)); }, slider);
 }
 
-Histories histories(const AnySlider& slider, const GroundMotion& motion, const std::function<void()>& progress) {
-  return std::visit([&](const auto& one) { return histories(one, motion, progress); }, slider);
+Histories histories(const AnySlider& slider, const GroundMotion& motion, const std::function<void()>& progress,
+                    Histories storage) {
+  return std::visit([&](const auto& one) { return histories(one, motion, progress, std::move(storage)); }, slider);
 }
 
 void advance(const AnySlider& slider, const Segment& segment, State& state, Contact contact,

@@ -45,7 +45,8 @@ Response integrate(const AnySlider& slider, const GroundMotion& motion, const In
                    Response storage = {});
 Response integrate(const AnySlider& slider, const HarmonicMotion& motion, const IntegrateOptions& options = {},
                    Response storage = {});
-Histories histories(const AnySlider& slider, const GroundMotion& motion, const std::function<void()>& progress = {});
+Histories histories(const AnySlider& slider, const GroundMotion& motion, const std::function<void()>& progress = {},
+                    Histories storage = {});
 
 /// As the template of the same name, with a function that is called now and then during a long segment, and may throw.
 void advance(const AnySlider& slider, const Segment& segment, State& state, Contact contact = Contact::flight,

@@ -1,6 +1,10 @@
 #include "stickslip/sliding/histories.hpp"
 
+#include <memory>
+#include <utility>
+
 #include "bindings.hpp"
+#include "sliding/response.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -10,11 +14,20 @@ py::tuple histories_any(const AnySlider& slider, const py::object& motion) {
     throw py::type_error("histories: motion must be a GroundMotion, got " +
                          py::type::of(motion).attr("__name__").cast<std::string>());
   const auto& ground = motion.cast<const GroundMotion&>();
-  Histories result = [&] {
+  Response spare = Storage::take();
+  Histories storage{std::move(spare.displacement), std::move(spare.velocity)};
+  auto* const kept = new Histories([&] {
     const py::gil_scoped_release released;
-    return histories(slider, ground, check_for_interrupt);
-  }();
-  return py::make_tuple(array_of(std::move(result.displacement)), array_of(std::move(result.velocity)));
+    return histories(slider, ground, check_for_interrupt, std::move(storage));
+  }());
+  const py::capsule owner(kept, [](void* p) {
+    const std::unique_ptr<Histories> histories(static_cast<Histories*>(p));
+    Response response;
+    response.displacement = std::move(histories->displacement);
+    response.velocity = std::move(histories->velocity);
+    Storage::give_back(std::move(response));
+  });
+  return py::make_tuple(view(kept->displacement, owner), view(kept->velocity, owner));
 }
 
 }  // namespace

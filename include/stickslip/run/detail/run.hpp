@@ -203,10 +203,14 @@ inline bool is_finite(double value) noexcept { return std::abs(value) <= std::nu
 inline bool is_finite(Vector2 value) noexcept { return is_finite(value.axis) && is_finite(value.transverse); }
 
 /// The motion at the samples only, from rest.
-/// @param walk  `walk(spans)` moves the system through the ground motion
+/// @param walk    `walk(spans)` moves the system through the ground motion
+/// @param result  discarded histories whose buffers are reused
 template <class Place, class Walk>
-HistoriesOf<Place> histories_by(std::size_t samples, Walk&& walk) {
-  HistoriesOf<Place> result{std::vector<Place>(samples), std::vector<Place>(samples)};
+HistoriesOf<Place> histories_by(std::size_t samples, Walk&& walk, HistoriesOf<Place> result = {}) {
+  for (auto* values : {&result.displacement, &result.velocity}) {
+    values->resize(samples);
+    values->front() = Place{};
+  }
   walk(HistorySpansOf<Place>{result.displacement, result.velocity});
   bool finite = true;
   for (const auto* values : {&result.displacement, &result.velocity})
