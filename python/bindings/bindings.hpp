@@ -165,8 +165,7 @@ struct BoundLaw<StaticKinetic<Law>> {
   using type = AnyStaticKinetic;
 };
 
-/// The slider without spring of a law; nullopt if the object is not a law. (Implicit conversions would need the frame
-/// of a bound function, which threads do not have.)
+/// The slider without spring of a law; nullopt if the object is not a law.
 inline std::optional<AnySlider> slider_of_law(const py::handle& object) {
   std::optional<AnySlider> slider;
   LibraryLaws::for_each([&]<class Law>() {
@@ -183,6 +182,31 @@ inline std::optional<AnySlider> slider_of_law(const py::handle& object) {
   });
   return slider;
 }
+
+}  // namespace stickslip::python
+
+namespace pybind11::detail {
+
+/// A law where a slider is expected is the slider of that law alone. It is found at the first attempt: an implicit
+/// conversion would come after all overloads have been tried without one.
+template <>
+class type_caster<stickslip::AnySlider> : public type_caster_base<stickslip::AnySlider> {
+ public:
+  bool load(handle source, bool convert) {
+    if (!isinstance<stickslip::python::AnyLaw>(source))
+      return type_caster_base<stickslip::AnySlider>::load(source, convert);
+    made_ = stickslip::python::slider_of_law(source);
+    value = made_ ? &*made_ : nullptr;
+    return made_.has_value();
+  }
+
+ private:
+  std::optional<stickslip::AnySlider> made_;
+};
+
+}  // namespace pybind11::detail
+
+namespace stickslip::python {
 
 /// The slider that an object is, or that it defines as a law; nullopt if it is neither.
 inline std::optional<AnySlider> slider_of(const py::handle& object) {
@@ -314,9 +338,17 @@ inline Numbers values_of(const py::array& objects, const std::string& name) {
   return numbers;
 }
 
+/// Whether an object is of a plain type, which has neither unit nor mask. It costs less than to look for them.
+inline bool is_plain(const py::handle& object) {
+  const PyTypeObject* const type = Py_TYPE(object.ptr());
+  return type == py::detail::npy_api::get().PyArray_Type_ || type == &PyList_Type || type == &PyTuple_Type ||
+         type == &PyFloat_Type || type == &PyLong_Type;
+}
+
 /// The numbers of a quantity that carries a unit (Pint, Astropy), converted to `unit`; otherwise `values` unchanged.
 /// @param unit  the SI unit to convert to, "" for a pure number; if it is null, quantities with units are rejected
 inline py::object without_unit(const py::object& values, const std::string& name, const char* unit) {
+  if (is_plain(values)) return values;
   const bool pint = py::hasattr(values, "magnitude") && py::hasattr(values, "dimensionality");
   if (!pint && !(py::hasattr(values, "unit") && py::hasattr(values, "to_value"))) {
     // xarray over Pint: NumPy would drop the unit
@@ -342,7 +374,7 @@ inline py::object without_unit(const py::object& values, const std::string& name
 /// `unit` is as for `without_unit`.
 inline Numbers to_numbers(const py::object& given, const std::string& name, const char* unit = nullptr) {
   const py::object values = without_unit(given, name, unit);
-  if (py::hasattr(values, "mask")) {  // pandas has one, too
+  if (!is_plain(values) && py::hasattr(values, "mask")) {  // pandas has one, too
     const py::module_ ma = py::module_::import("numpy.ma");
     if (py::isinstance(values, ma.attr("MaskedArray"))) {
       const py::object mask = ma.attr("getmaskarray")(values);
@@ -352,7 +384,9 @@ inline Numbers to_numbers(const py::object& given, const std::string& name, cons
                                     "; fill the gaps first");
     }
   }
-  const py::array array = py::module_::import("numpy").attr("asarray")(values);  // its errors say what is wrong
+  const py::array array = is_plain(values) && py::isinstance<py::array>(values)
+                              ? py::reinterpret_borrow<py::array>(values)
+                              : py::array(py::module_::import("numpy").attr("asarray")(values));  // its errors say what is wrong
   if (array.dtype().kind() == 'O') return values_of(array, name);
   if (std::string_view("biuf").find(array.dtype().kind()) == std::string_view::npos)
     throw std::invalid_argument(name + " must hold real numbers, got " + py::str(array.dtype()).cast<std::string>());

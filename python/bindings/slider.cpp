@@ -192,7 +192,6 @@ Functions that take a slider also take a law: a slider on level ground without s
              py::arg("damping") = py::none(), py::kw_only(), py::arg("period") = py::none(),
              py::arg("damping_ratio") = py::none(), py::arg("slope_degrees") = 0.0, py::arg("one_way") = false,
              py::arg("stops") = py::none(), py::arg("pendulum") = false);
-  py::implicitly_convertible<AnyLaw, AnySlider>();
   slider
       .def_static(
           "in_cup",
