@@ -284,6 +284,10 @@ StuckBound::StuckBound(const ModalInterface& of) : modes_(of.modes()) {
     }
     return;
   }
+  if (modes_ > few_modes) {
+    of_many_ = &of;
+    return;
+  }
   const Eigen::MatrixXd flow = flow_matrix(of, false);
   for (Index i = 0; i < 2 * modes_; ++i)  // a rigid-body mode acts by its velocity only
     if (i >= modes_ || of.stiffness[i] > 0) kept_.push_back(i);
@@ -302,7 +306,24 @@ StuckBound::StuckBound(const ModalInterface& of) : modes_(of.modes()) {
   weights_ = (row.cast<std::complex<double>>().transpose() * solver.eigenvectors()).cwiseAbs().transpose();
 }
 
+// With the mass matrix M = 1 + mass shape shape', the rates z = y' follow M z'' + D z' + w^2 z = 0, as y does. The demand
+// is -shape.z' (-demand.z' where the modes do not feel the slider, M = 1), and z'.M z' is at most twice the energy.
+double StuckBound::by_energy(const StructureState& now) const {
+  const ModalInterface& of = *of_many_;
+  const auto y = view(now.modal_displacement), rate = view(now.modal_velocity);
+  Eigen::VectorXd force = of.stiffness.cwiseProduct(y);
+  if (of.classical)
+    force += of.damping.diagonal().cwiseProduct(rate);
+  else
+    force.noalias() += of.damping * rate;
+  const double demand = of.demand.dot(force);
+  const double twice = force.dot(force - demand * of.reaction) + of.stiffness.dot(rate.cwiseAbs2());
+  const double length = of.demand.squaredNorm() / (1 - of.demand.dot(of.reaction));
+  return std::sqrt(std::max(twice, 0.0) * length);
+}
+
 double StuckBound::after(const StructureState& now, double time) const {
+  if (of_many_) return time > 0 ? 0 : by_energy(now);
   if (!pairs_.empty()) {
     double sum = 0;
     for (std::size_t j = 0; j < pairs_.size(); ++j) {

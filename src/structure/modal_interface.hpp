@@ -69,7 +69,8 @@ Eigen::MatrixXd flow_matrix(const ModalInterface& of, bool sliding);
 void set_fastest(ModalInterface& of);
 
 /// The largest part of the demand, beside the pull of the spring, that can still occur while the interface remains
-/// stuck without ground motion: the amplitudes of all modes, which only shrink.
+/// stuck without ground motion: the amplitudes of all modes, which only shrink. Of more than 80 modes that feel each
+/// other, in n^2 operations instead of n^3: by the energy of their rates, which only falls.
 class StuckBound {
  public:
   explicit StuckBound(const ModalInterface& of);
@@ -78,6 +79,8 @@ class StuckBound {
   double after(const StructureState& state, double time) const;
 
  private:
+  double by_energy(const StructureState& state) const;
+
   // Of a mode that does not feel the others: the roots of its equation, their distance, and the demand of y and y'.
   struct Pair {
     std::complex<double> first, second, apart;
@@ -88,6 +91,7 @@ class StuckBound {
   std::vector<Eigen::Index> kept_;   // components of (y, y') that act
   Eigen::MatrixXcd left_;            // amplitudes of the eigenvectors from (y, y')
   Eigen::VectorXd weights_, rates_;  // |demand| of each, and its growth [1/s]
+  const ModalInterface* of_many_ = nullptr;
 };
 
 }  // namespace stickslip::detail

@@ -141,22 +141,54 @@ bool finite(const StructureState& state);
 /// How often it is asked whether that can be.
 inline constexpr std::size_t calm_steps_per_look = 1000;
 
+/// Finds by the loss of energy that an interface on springs cannot settle within the steps that are left.
+class RingDown {
+ public:
+  /// @param energy  per reference mass [m^2/s^2]
+  /// @param level   of friction, or more [m/s^2]
+  /// @param steps   since the ground motion
+  bool endless(double energy, double level, double step, std::size_t steps) {
+    if (steps < next_) return false;
+    const double passed = step * static_cast<double>(steps - since_), before = before_;
+    before_ = energy, since_ = steps, next_ = 2 * steps;
+    if (!(before > 0)) return false;
+    // Of dE/dt = -rate E - level sqrt(2 E), where rate is less than the one observed.
+    const double rate = std::log(before / energy) / passed, cycles = std::sqrt(energy / 2) / level;
+    const double time = rate > 0 ? 2 / rate * std::log1p(rate * cycles) : 2 * cycles;
+    return time > step * static_cast<double>(most_calm_steps - steps);
+  }
+
+ private:
+  std::size_t since_ = 0, next_ = 16384;  // steps of many cycles
+  double before_ = 0;
+};
+
 /// Throws if the interface cannot settle within the steps that are left, because friction is next to nothing beside what
 /// is left of the motion. Only friction changes the momentum of an interface that slides without spring, damper and
-/// stops; and the modes ring on unless their own dampers, or friction, stop them.
+/// stops; with them, friction and dampers take its energy; and the modes ring on unless their own dampers, or friction,
+/// stop them.
 template <FrictionLaw Law>
-void refuse_endless(const ModalInterface& of, const Law& law, const StuckBound& bound, double step,
+void refuse_endless(const ModalInterface& of, const Law& law, const StuckBound& bound, RingDown& energy, double step,
                     const StructureState& state, std::size_t steps) {
   constexpr double margin = 1000;  // for friction that is higher later
-  if (of.spring.stiffness > 0 || of.damper > 0 || of.stops || LawWithSprings<Law>) return;
   const double speed = std::abs(state.velocity), time = static_cast<double>(most_calm_steps - steps) * step;
+  const State at = interface_of(state);
+  const auto now = law_at(law, at, 1);
   double level = 0;
-  for (const Direction direction : {Direction::forward, Direction::backward}) {
-    if (of.one_way && direction == Direction::backward) continue;
-    const auto now = law_at(law, interface_of(state), 1);
-    for (const double one :
-         {hold(now, state.displacement, direction), resist(now, state.displacement, speed, direction)})
-      if (std::isfinite(one)) level = std::max(level, one);
+  const auto add = [&](double forward, double backward) {
+    if constexpr (LawWithSprings<Law>)  // whose pull is in both, with opposite signs
+      forward = backward = (forward + backward) / 2;
+    if (std::isfinite(forward)) level = std::max(level, forward);
+    if (std::isfinite(backward) && !of.one_way) level = std::max(level, backward);
+  };
+  const double x = state.displacement;
+  add(hold(now, x, Direction::forward), hold(now, x, Direction::backward));
+  add(resist(now, x, speed, Direction::forward), resist(now, x, speed, Direction::backward));
+  if (of.spring.stiffness > 0 || of.damper > 0 || of.stops || LawWithSprings<Law>) {
+    const auto [kinetic, springs] = energy_of(of, state);
+    if (energy.endless(kinetic + springs + elastic(law, at), margin * level, step, steps))
+      refuse_restless(step, state, bound(state) + of.spring.stiffness * std::abs(x));
+    return;
   }
   const double impulse = margin * level * time, amplitude = bound.after(state, time);
   const double momentum = state.velocity + of.coupling.dot(view(state.modal_velocity));
@@ -173,13 +205,14 @@ void refuse_endless(const ModalInterface& of, const Law& law, const StuckBound& 
 template <FrictionLaw Law, class Go>
 void settle_structure(const ModalInterface& of, const Law& law, double step, StructureState& state, Go&& go) {
   const StuckBound bound(of);
+  RingDown energy;
   const auto amplitude = [&] { return bound(state); };
   const auto pull = [&] { return of.spring.stiffness * state.displacement; };
   const LoadSegment calm{step, 0, 0, standard_gravity, standard_gravity};
   for (std::size_t steps = 0;
        state.mode != Mode::stuck || !holds_forever(pull(), amplitude(), stuck_levels(of, law, state)); ++steps) {
     if (steps == most_calm_steps) refuse_restless(step, state, amplitude() + std::abs(pull()));
-    if (steps % calm_steps_per_look == 0) refuse_endless(of, law, bound, step, state, steps);
+    if (steps % calm_steps_per_look == 0) refuse_endless(of, law, bound, energy, step, state, steps);
     go(calm);
   }
 }

@@ -175,6 +175,7 @@ class SweptInterface {
     const double step = motion_.last_step();
     const LoadSegment calm{step, 0, 0, standard_gravity, standard_gravity};
     std::optional<StuckBound> bound, left;
+    RingDown energy;
     if (stuck_.empty()) bound.emplace(of_);
     for (std::size_t steps = 0, look = calm_steps_per_look;; ++steps) {  // most rest before
       double amplitude = never;
@@ -187,7 +188,7 @@ class SweptInterface {
       if (steps >= look) {
         look = steps + calm_steps_per_look;
         if (!left) left.emplace(of_);
-        refuse_endless(of_, law_, *left, step, state_, steps);
+        refuse_endless(of_, law_, *left, energy, step, state_, steps);
       }
       move(calm);
     }

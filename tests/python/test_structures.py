@@ -4,6 +4,7 @@ import copy
 import json
 import pickle
 import re
+import time
 from importlib.util import find_spec
 from itertools import pairwise
 from pathlib import Path
@@ -670,6 +671,81 @@ def test_what_cannot_settle_says_so_at_once(method, level) -> None:
     with pytest.warns(RuntimeWarning, match="2 of 2 combinations failed"):
         table = ss.sweep([slope], [QUAKE], settle=True)
     assert "does not come to rest" in table.failures[0].message
+
+
+@pytest.mark.parametrize("kind", ["isolated", "equipment", "heavy equipment"])
+@pytest.mark.parametrize(
+    "slider",
+    [
+        ss.FrictionPendulum(radius=2, mu=1e-300),
+        ss.TriplePendulum([0.3, 1.8, 2.6], [1e-300, 0.05, 0.09], [0.09, 0.22, 0.31]),
+    ],
+    ids=["pendulum", "surfaces"],
+)
+def test_what_cannot_settle_on_a_spring_is_found_by_its_energy(kind, slider) -> None:
+    """After 16,384 steps or twice as many, not after a million."""
+    two = ss.Structure.shear_building(masses=[1, 1], stiffnesses=[1000, 1000], damping_ratio=0.02)
+    system = {
+        "isolated": lambda: ss.IsolatedStructure(slider, two, base_mass=1),
+        "equipment": lambda: ss.EquipmentOnFloor(slider, two, floor=1),
+        "heavy equipment": lambda: ss.EquipmentOnFloor(slider, two, floor=1, mass=0.1),
+    }[kind]()
+    with pytest.raises(ss.ConvergenceError, match="does not come to rest"):
+        ss.integrate(system, QUAKE, settle=True)
+    with pytest.warns(RuntimeWarning, match="2 of 2 combinations failed"):
+        table = ss.sweep([system], [QUAKE], settle=True)
+    assert "does not come to rest" in table.failures[0].message
+
+
+def test_little_friction_stops_a_building_after_all_its_cycles() -> None:
+    """Of a base below next to nothing as of a block: each half cycle takes 2 a / wn^2."""
+    light = ss.Structure.from_modes(mass_fractions=[1e-6], frequencies=[20.0], damping_ratios=[0.1])
+    slider = ss.Slider(ss.Coulomb(slip_level=1e-4), natural_frequency=2)
+    system = ss.IsolatedStructure(slider, light)
+    still = ss.GroundMotion([0, 0], dt=0.1)
+    r = ss.integrate(system, still, displacement=0.125, settle=True)
+    assert len(r.events) == pytest.approx(0.125 * 4 / (2 * 1e-4), rel=0.02)
+    assert abs(r.residual) <= 1e-4 / 4 * (1 + 1e-3)
+
+
+def test_many_modes_that_feel_the_equipment_settle_without_their_eigenvectors() -> None:
+    # Those of 1,000 floors took 200 s without a look at signals.
+    many = ss.Structure.shear_building(
+        masses=np.ones(200), stiffnesses=9e4 * np.ones(200), damping_ratio=0.1
+    )
+    still = ss.GroundMotion([0, 0, 0], dt=0.02)
+    shaking = np.append(6 * np.sin(0.18 * np.arange(200)), 0)
+    motion = ss.GroundMotion(shaking, dt=0.02)
+
+    def time_of(mass: float) -> float:
+        system = ss.EquipmentOnFloor(ss.Coulomb(mu=0.02), many, floor=3, mass=mass)
+        begin = time.process_time()
+        ss.integrate(system, still, settle=True)
+        return time.process_time() - begin
+
+    assert time_of(0.5) < 5 * time_of(0) + 0.5
+    system = ss.EquipmentOnFloor(ss.Coulomb(mu=0.02), many, floor=3, mass=0.5)
+    r = ss.integrate(system, motion, settle=True)
+    assert len(r.events) > 5 and r.residual != 0
+    longer = np.append(shaking, np.zeros(round(2 * r.time[-1] / 0.02)))
+    again = ss.integrate(system, ss.GroundMotion(longer, dt=0.02))
+    assert again.residual == pytest.approx(r.residual, rel=1e-9)  # it never slides again
+    table = ss.sweep([system], [motion], settle=True)
+    assert table.residual[0, 0, 0] == pytest.approx(r.residual, rel=1e-9)
+
+
+@pytest.mark.parametrize("kind", ["isolated", "equipment", "slope"])
+def test_a_structure_that_overflows_is_named_with_its_velocity(kind) -> None:
+    one = ss.Structure.shear_building(masses=[1], stiffnesses=[100], damping_ratio=0.02)
+    system = {
+        "isolated": lambda: ss.IsolatedStructure(ss.Coulomb(mu=0.1), one, base_mass=1),
+        "equipment": lambda: ss.EquipmentOnFloor(ss.Coulomb(mu=0.1), one, floor=1),
+        "slope": lambda: ss.FlexibleSlope(
+            ky_g=0.1, height=50, shear_velocity=300, damping_ratio=0.05
+        ),
+    }[kind]()
+    with pytest.raises(OverflowError, match=r"range of doubles.*the slider is .*start 1e\+200 m/s"):
+        ss.integrate(system, QUAKE, velocity=1e200)
 
 
 def test_a_building_slides_on_a_bearing_with_several_surfaces():

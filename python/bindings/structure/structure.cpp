@@ -139,8 +139,10 @@ StructureResponse integrate_with(const py::object& system, const py::object& mot
                                  const StructureIntegrateOptions& options) {
   const auto& ground = motion.cast<const GroundMotion&>();
   const auto run = [&](const auto& what) {
-    const py::gil_scoped_release released;
-    return integrate(what, ground, options);
+    return naming_cause(system, detail::shortest(options.velocity), [&] {
+      const py::gil_scoped_release released;
+      return integrate(what, ground, options);
+    });
   };
   if (py::isinstance<FlexibleSlope>(system)) return run(system.cast<const FlexibleSlope&>());
   if (py::isinstance<EquipmentOnFloor>(system)) return run(system.cast<const EquipmentOnFloor&>());
