@@ -24,7 +24,7 @@ from ._core import (
 from ._tables import Columns, Repeated, html_table, json_text
 from ._tabular import Tabular
 from .ensemble import run_ensemble
-from .runs.progress import shown
+from .runs.progress import on_screen, shown
 from .theory import PLANAR_THEORIES, THEORIES, Coverage
 
 if TYPE_CHECKING:
@@ -363,7 +363,7 @@ def compare(
     members, seed, threads
         As for `run_ensemble`.
     progress : bool, optional
-        As for `run_ensemble`; then also over the theories.
+        A bar as for `run_ensemble`, and one over the theories.
     theories : sequence, optional
         The theories to compare; default `stickslip.theory.THEORIES`, in the plane
         `stickslip.theory.PLANAR_THEORIES`. Each has a unique `name`;
@@ -416,7 +416,8 @@ def compare(
     )
     predictions: dict[str, Moments] = {}
     refused: dict[str, str] = {}
-    with shown(bool(progress), "compare", "theories") as report:
+    # At once, for one theory can take a minute.
+    with shown(on_screen() if progress is None else progress, "compare", "theory") as report:
         for done, (name, answer) in enumerate(answers.items()):
             report(done, len(answers))
             if answer:

@@ -109,7 +109,7 @@ def test_a_movie_shows_the_progress_of_its_frames(tmp_path, capsys):
     film.write(tmp_path / "a.gif", progress=lambda done, total: told.append((done, total)))
     assert told == [(i, 6) for i in range(1, 7)]
     film.write(tmp_path / "a.gif", progress=True)
-    assert "6 of 6 frames" in capsys.readouterr().err
+    assert "6/6" in capsys.readouterr().err
     film.write(tmp_path / "a.gif")
     assert capsys.readouterr().err == ""
 

@@ -305,7 +305,7 @@ def test_progress_tells_the_files_that_are_read(folder, capsys):
     ss.Suite.read(folder, progress=lambda done, total: told.append((done, total)))
     assert told == [(i, 4) for i in range(1, 5)]
     ss.Suite.read(folder, progress=True)
-    assert "4 of 4 files" in capsys.readouterr().err
+    assert "4/4" in capsys.readouterr().err
 
 
 def test_files_that_are_the_same_record_are_told(folder):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import math
-import sys
 from collections.abc import Iterable
 from typing import Any
 
@@ -140,7 +139,6 @@ def _ensemble(args: argparse.Namespace) -> str:
             threads=args.threads,
             settle=args.settle,
             contact=args.contact,
-            progress=sys.stderr is not None and sys.stderr.isatty(),
             checkpoint=args.checkpoint,
         )
     except EnsembleError as error:  # the checkpoint could not be written

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import math
-import sys
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -107,15 +106,14 @@ def _fragility(args: argparse.Namespace) -> str:
     count = len(set(suite.metadata["record"].tolist()))
     if args.pga:
         suite = suite.stripes(pga_g=sorted(args.pga))
-    shown = sys.stderr is not None and sys.stderr.isatty()
     f = Fragility.fit(
-        sweep(block, suite, settle=True, progress=shown, **drawn),
+        sweep(block, suite, settle=True, **drawn),
         im="pga_g",
         thresholds=sorted(args.thresholds),
         separate=args.separate,
         method=args.method or ("lognormal" if args.pga else "cloud"),
     )
-    bands = f.bands(_LEVEL, progress=shown) if count > 1 else None
+    bands = f.bands(_LEVEL) if count > 1 else None
     rows = _rows(f, bands)
     if hazard is not None:
         h = f.rate_of_exceedance(hazard)

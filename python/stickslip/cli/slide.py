@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import math
 import statistics
-import sys
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -169,8 +168,7 @@ def _slide(args: argparse.Namespace) -> str:
                 raise ValueError("--animate shows one response, got several records")
             with report.kept(found.file):
                 film = next(iter(responses.values())).animate()
-                seen = sys.stderr is not None and sys.stderr.isatty()
-                report.figures.append(str(film.write(args.animate, progress=seen)))
+                report.figures.append(str(film.write(args.animate)))
         if args.plot and responses:
             with report.kept(found.file):
                 report.save(_figure(responses), found)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import argparse
 import math
-import sys
 from pathlib import Path
 from typing import Any
 
 from .._files import replacing
 from .._text import printable
+from ..runs.progress import on_screen
 from .options import add_options
 from .output import check_whole
 
@@ -50,6 +50,8 @@ def add_thesis(commands: argparse._SubParsersAction) -> None:
 
 
 def _thesis(args: argparse.Namespace) -> str:
+    from tqdm import tqdm  # type: ignore[import-untyped, unused-ignore]
+
     from .. import thesis
 
     numbers = list(dict.fromkeys(args.numbers)) or thesis.Thesis.numbers
@@ -63,16 +65,19 @@ def _thesis(args: argparse.Namespace) -> str:
     check_whole("--threads", args.threads, 1, 2**16)
     members = args.members if args.members is not None else 2000 if args.check else 100_000
     seed = args.seed if args.seed is not None else 2 if args.check else 1
-    shown = sys.stderr is not None and sys.stderr.isatty()
+    looks = "{l_bar}{bar}| {elapsed}"
+    bar = tqdm(total=100, leave=False, bar_format=looks) if on_screen() else None
 
     def progress(task: str, fraction: float) -> None:
-        print(f"\r\33[K{task} {fraction:4.0%}", end="", file=sys.stderr, flush=True)
+        bar.set_description_str(task, refresh=False)
+        bar.n = round(100 * fraction)
+        bar.refresh()
 
     source = thesis.Thesis(
         members=members,
         seed=seed,
         threads=args.threads,
-        progress=progress if shown else None,
+        progress=progress if bar else None,
     )
     folder = args.out or (None if args.check else Path("thesis"))
     if folder:
@@ -92,8 +97,8 @@ def _thesis(args: argparse.Namespace) -> str:
             if args.check:
                 checks += figure.check()
     finally:
-        if shown:
-            print("\r\33[K", end="", file=sys.stderr, flush=True)
+        if bar:
+            bar.close()
     summary = thesis.thesis_summary(figures)
     if folder:
         with replacing(folder / "gallery.md") as stream:

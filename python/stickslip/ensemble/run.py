@@ -36,7 +36,7 @@ def run_ensemble(
     threads: SupportsIndex | None = None,
     settle: bool = False,
     walls: Walls | None = None,
-    progress: bool | Progress = False,
+    progress: bool | Progress | None = None,
 ) -> CartEnsemble: ...
 @overload
 def run_ensemble(
@@ -52,7 +52,7 @@ def run_ensemble(
     contact: str | None = None,
     velocity_spectrum: bool = True,
     ground_acceleration: bool = False,
-    progress: bool | Progress = False,
+    progress: bool | Progress | None = None,
     executor: Executor | None = None,
     checkpoint: str | os.PathLike[str] | None = None,
     checkpoint_every: float = 30.0,
@@ -67,7 +67,7 @@ def run_ensemble(
     first_member: SupportsIndex = 0,
     threads: SupportsIndex | None = None,
     settle: bool = False,
-    progress: bool | Progress = False,
+    progress: bool | Progress | None = None,
 ) -> RockingEnsemble: ...
 def run_ensemble(
     sliders: AnySliders | Blocks | Carts,
@@ -83,7 +83,7 @@ def run_ensemble(
     velocity_spectrum: bool = True,
     ground_acceleration: bool = False,
     walls: Walls | None = None,
-    progress: bool | Progress = False,
+    progress: bool | Progress | None = None,
     executor: Executor | None = None,
     checkpoint: str | os.PathLike[str] | None = None,
     checkpoint_every: float = 30.0,
@@ -139,8 +139,9 @@ def run_ensemble(
     walls : sequence, optional
         With carts, walls whose clearance is asked, see `integrate`.
     progress : bool or callable, optional
-        True: a bar on stderr (a line for each tenth if that is not a terminal). A callable gets the
-        numbers of members done and in total, about ten times a second.
+        None: a bar of tqdm on stderr once the run has taken two seconds, if stderr is a terminal or
+        a notebook. True: a bar from the start, anywhere. False: none. A callable gets the numbers
+        of members done and in total, about ten times a second.
     executor : concurrent.futures.Executor, optional
         Where to run, with one thread for each part: a ProcessPoolExecutor, Dask's
         `Client.get_executor()`, mpi4py's MPIPoolExecutor. It is not shut down. Parts start small
@@ -233,7 +234,7 @@ def run_ensemble(
                 raise ValueError(f"run_ensemble: {name} does not apply to {to}")
         how: dict[str, Any] = {"members": total, "first_member": first, "seed": key}
         how |= {"settle": settle, "threads": count}
-        with shown(progress) as show:
+        with shown(progress, "run_ensemble", "member") as show:
             if carts:
                 return run_carts(sliders, motions, walls=walls, show=show, **how)
             return run_blocks(sliders, motions, show=show, **how)
@@ -253,7 +254,7 @@ def run_ensemble(
         check_directions(records, "run_ensemble")
     keeper = Checkpoint(checkpoint, checkpoint_every)
     start = keeper.load(range(first, first + total))
-    with shown(progress) as show:
+    with shown(progress, "run_ensemble", "member") as show:
         try:
             if executor is None:
                 whole = _run_here(

@@ -22,7 +22,7 @@ def ensemble_sensitivity(
     threads: SupportsIndex | None = None,
     settle: bool = False,
     contact: str = "flight",
-    progress: bool | Progress = False,
+    progress: bool | Progress | None = None,
 ) -> EnsembleSensitivity:
     """Differentiate the statistics of an ensemble with respect to a parameter.
 
@@ -95,7 +95,7 @@ def ensemble_sensitivity(
             "ensemble_sensitivity: covers sliders on one axis, got a PlanarSlider; take"
             " differences of two ensembles with the same seed"
         )
-    with shown(progress, who="ensemble_sensitivity") as show:
+    with shown(progress, "ensemble_sensitivity", "member") as show:
         return _core.ensemble_sensitivity(
             sliders,
             motions,

@@ -63,7 +63,7 @@ def read_suite(
     on_error: Literal["raise", "skip"],
     metadata: str | os.PathLike[str] | Mapping[str, ArrayLike] | Any | None,
     threads: int | None,
-    progress: bool | Progress,
+    progress: bool | Progress | None,
 ) -> _Kind:
     """Implementation of `Suite.read` (see there)."""
     if on_error not in ("raise", "skip"):
@@ -100,7 +100,7 @@ def read_suite(
     found: list[tuple[str, Answer]] = []
     pool = ThreadPoolExecutor(threads or os.cpu_count() or 1)
     try:
-        with shown(progress, "Suite.read", "files") as report:
+        with shown(progress, "Suite.read", "file") as report:
             for done, several in enumerate(pool.map(read_file, paths, chunksize=16), 1):
                 found += several
                 report(done, len(paths))

@@ -605,7 +605,7 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
         on_error: Literal["raise", "skip"] = "raise",
         metadata: str | os.PathLike[str] | Mapping[str, ArrayLike] | Any | None = None,
         threads: int | None = None,
-        progress: bool | Progress = False,
+        progress: bool | Progress | None = None,
     ) -> Suite:
         """Read records from files, as `read_record` does, on several threads.
 
@@ -659,8 +659,8 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
         threads : int, optional
             Maximum number of threads, at least 1; default: all cores.
         progress : bool or callable, optional
-            True shows the number of files read on stderr, as for `run_ensemble`; a callable is
-            called with the number of files read and the total.
+            A bar as for `run_ensemble`; a callable is called with the number of files read and the
+            total.
 
         Returns
         -------

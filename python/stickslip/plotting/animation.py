@@ -57,7 +57,9 @@ class Animation(FuncAnimation):
     def _page(self) -> str:
         return self._film.page(self._fig, 1000 / self._interval)
 
-    def write(self, path: str | os.PathLike[str], *, progress: bool | Progress = False) -> Path:
+    def write(
+        self, path: str | os.PathLike[str], *, progress: bool | Progress | None = None
+    ) -> Path:
         """Save as an animated GIF, an MP4 or a page.
 
         Parameters
@@ -66,8 +68,8 @@ class Animation(FuncAnimation):
             Its suffix is .gif (needs Pillow), .mp4 (needs ffmpeg) or .html, a page that plays one
             drawing. An existing file is replaced once the new one is whole.
         progress : bool or callable, optional
-            Show a progress bar on stderr while the frames of a GIF or an MP4 are drawn, or call
-            ``progress(done, total)`` after each.
+            A bar while the frames of a GIF or an MP4 are drawn, as for `run_ensemble`, or what to
+            call as ``progress(done, total)`` after each.
 
         Returns
         -------
@@ -88,7 +90,7 @@ class Animation(FuncAnimation):
             if kind == "html":
                 stream.write(self._page().encode())
             else:
-                with shown(progress, "animate", "frames") as report:
+                with shown(progress, "animate", "frame") as report:
                     stream.write(self._movie(kind, report))
         return file
 

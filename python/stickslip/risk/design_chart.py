@@ -119,7 +119,7 @@ def design_chart(
     percentiles: ArrayLike = (16, 50, 84),
     directions: Directions = "axis",
     threads: SupportsIndex | None = None,
-    progress: bool | Progress = False,
+    progress: bool | Progress | None = None,
 ) -> DesignChart:
     """Slide blocks under records scaled to levels of PGA or PGV, for a design chart.
 

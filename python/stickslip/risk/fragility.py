@@ -282,7 +282,7 @@ class Fragility(Tabular):
         *,
         samples: SupportsIndex = 1000,
         seed: SupportsIndex = 0,
-        progress: bool | Progress = False,
+        progress: bool | Progress | None = None,
     ) -> Bands:
         """Confidence bands, by resampling records.
 
@@ -301,8 +301,8 @@ class Fragility(Tabular):
             Number of samples, at least 100.
         seed : int, optional
         progress : bool or callable, optional
-            True shows a progress bar on stderr, as for `sweep`; a callable is called with the
-            number of samples done and their total.
+            As for `run_ensemble`; a callable is called with the number of samples done and their
+            total.
 
         Returns
         -------
@@ -346,7 +346,7 @@ class Fragility(Tabular):
             raise ValueError(f"Fragility.bands: im must be at least 0, got {where.min():g}")
         rng = np.random.default_rng(whole_number(seed, "Fragility.bands: seed", 0))
         weights = rng.multinomial(records, np.full(records, 1 / records), size=count).astype(float)
-        with shown(progress, who="Fragility.bands", things="resamples") as show:
+        with shown(progress, "Fragility.bands", "sample") as show:
             found = self._model.estimate(weights, show)
             show(count, count)
         wide = math.sqrt(records / (records - 1)) * stats.t.ppf((1 + level) / 2, records - 1)

@@ -200,7 +200,7 @@ def orientations(
     settle: bool = False,
     contact: Literal["flight", "clipped"] = "flight",
     threads: SupportsIndex | None = None,
-    progress: bool | Progress = False,
+    progress: bool | Progress | None = None,
 ) -> Orientations:
     """Integrate a slider on one axis along each of several horizontal directions of a station.
 
@@ -231,8 +231,7 @@ def orientations(
     threads : int, optional
         Maximum number of threads, at least 1; default: all cores.
     progress : bool or callable, optional
-        True: a bar on stderr. A callable gets the numbers of directions done and in total, about
-        ten times a second.
+        As for `sweep`; a callable gets the numbers of directions done and in total.
 
     Returns
     -------
@@ -315,7 +314,7 @@ def orientations(
     directions = np.array(_core.to_vector(degrees, "orientations: degrees"))
     azimuth = _core._azimuth_of(station.orientation)
     angle = directions - (azimuth or 0.0)
-    with shown(progress, who="orientations", things="directions") as show:
+    with shown(progress, "orientations", "direction") as show:
         found = _core.orientations(
             slider,
             station,

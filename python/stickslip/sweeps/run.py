@@ -61,7 +61,7 @@ def sweep(  # type: ignore[overload-overlap]
     polarity: Polarity = "both",
     settle: bool = False,
     threads: SupportsIndex | None = None,
-    progress: bool | Progress = False,
+    progress: bool | Progress | None = None,
 ) -> CartTable: ...
 @overload
 def sweep(
@@ -75,7 +75,7 @@ def sweep(
     settle: bool = False,
     contact: Literal["flight", "clipped"] | None = None,
     threads: SupportsIndex | None = None,
-    progress: bool | Progress = False,
+    progress: bool | Progress | None = None,
     executor: Executor | None = None,
     checkpoint: str | os.PathLike[str] | None = None,
     checkpoint_every: float = 30.0,
@@ -89,7 +89,7 @@ def sweep(
     polarity: Polarity = "both",
     settle: bool = False,
     threads: SupportsIndex | None = None,
-    progress: bool | Progress = False,
+    progress: bool | Progress | None = None,
 ) -> RockingTable: ...
 def sweep(
     sliders: AnySwept
@@ -110,7 +110,7 @@ def sweep(
     settle: bool = False,
     contact: Literal["flight", "clipped"] | None = None,
     threads: SupportsIndex | None = None,
-    progress: bool | Progress = False,
+    progress: bool | Progress | None = None,
     executor: Executor | None = None,
     checkpoint: str | os.PathLike[str] | None = None,
     checkpoint_every: float = 30.0,
@@ -152,8 +152,9 @@ def sweep(
     threads : int, optional
         Maximum number of threads, at least 1; default: all cores.
     progress : bool or callable, optional
-        True: a bar on stderr. A callable gets the numbers of combinations done and in total, about
-        ten times a second.
+        None: a bar of tqdm on stderr once the run has taken two seconds, if stderr is a terminal or
+        a notebook. True: a bar from the start, anywhere. False: none. A callable gets the numbers
+        of combinations done and in total, about ten times a second.
     executor : concurrent.futures.Executor, optional
         Where to run, with one thread for each part of the records: a ProcessPoolExecutor, Dask's
         `Client.get_executor()`, mpi4py's MPIPoolExecutor. It is not shut down.
@@ -256,7 +257,7 @@ def sweep(
                 to = "carts" if carts else "blocks that rock"
                 raise ValueError(f"sweep: {name} does not apply to {to}")
         args = these, varied, those, _metadata(motions), scale, signs, settle, count
-        with shown(progress, who="sweep", things="combinations") as show:
+        with shown(progress, "sweep", "combination") as show:
             return sweep_carts(*args, show, walls) if carts else sweep_blocks(*args, show)
     if scale is not None:
         raise ValueError(
@@ -277,7 +278,7 @@ def sweep(
         planar=isinstance(these[0], PlanarSlider),
     )
     how = {"polarity": polarity, "settle": settle, "contact": contact}
-    with shown(progress, who="sweep", things="combinations") as show:
+    with shown(progress, "sweep", "combination") as show:
         if executor is None and checkpoint is None:
             result = _core.sweep(these, those, threads=count, progress=show, **how)
             table.put(range(len(those)), result)
