@@ -64,8 +64,14 @@ class Histories {
     }
     const double demand = of_.demand_of(state, ground, weight);
     double acceleration = 0, force = demand;  // stuck: friction is what the bond carries
-    if (state.mode != Mode::stuck) {
-      const Direction direction = direction_of(state.mode);
+    Mode mode = state.mode;
+    if (mode == Mode::stuck) {  // until now, where a load begins or jumps
+      const detail::StuckLevels levels = detail::stuck_levels(of_, law, state, weight);
+      if (demand > detail::weigh(weight, levels.forward)) mode = Mode::forward;
+      if (-demand > detail::weigh(weight, levels.backward)) mode = Mode::backward;
+    }
+    if (mode != Mode::stuck) {
+      const Direction direction = direction_of(mode);
       const double level = resist(law_at(law, detail::interface_of(state), weight), state.displacement,
                                   std::abs(state.velocity), direction);
       force = of_.damper * state.velocity + sign(direction) * detail::weigh(weight, level);

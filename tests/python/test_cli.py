@@ -1107,6 +1107,42 @@ def test_an_ensemble_of_buildings_is_exactly_the_librarys(capsys):
     assert "floors" not in json.loads(run_ensemble(capsys, *QUAKE, "--json")[1])
 
 
+@pytest.mark.parametrize("command", ["slide", "sweep"])
+def test_a_building_on_the_block_is_exactly_the_librarys(command, capsys):
+    tower = ss.Structure.shear_building(
+        masses=[2e5, 1e5], stiffnesses=[2e8, 1.5e8], damping_ratio=0.03
+    )
+    slider = ss.Slider(ss.Coulomb(mu=0.06), period=2, stops=ss.Stops(gap=0.2, restitution=0.5))
+    system = ss.IsolatedStructure(slider, tower, base_mass=2e5)
+    r = ss.integrate(system, ss.sample_record("Kobe"), settle=True)
+    options = ["--mu", "0.06", "--period", "2", "--stop-gap", "0.2", "--restitution", "0.5"]
+    run_it = [command, "sample:Kobe", *options, *BUILDING]
+    assert main([*run_it, "--polarity", "recorded", "--json"]) == 0
+    (row,) = json.loads(capsys.readouterr().out)["results"]
+    assert row["peak_m"] == pytest.approx(r.peak, rel=1e-12)
+    assert row["residual_m"] == pytest.approx(r.residual, rel=1e-9)
+    if command == "slide":
+        assert row["peak_base_acceleration_m_s2"] == r.peak_base_acceleration
+        assert row["peak_floor_acceleration_m_s2"] == r.floors.peak_acceleration.max()
+        assert row["peak_drift_m"] == r.floors.peak_drift.max()
+        assert row["impacts_forward"] + row["impacts_backward"] == len(r.impacts) > 0
+        assert main([*run_it, "--both"]) == 0
+        assert "floors at most [g]  drift at most [mm]" in capsys.readouterr().out
+        two = [command, "sample:Kobe", "--mu", "0.06", "0.1", *options[2:], *BUILDING]
+        assert main([*two, "--plot", "a.png"]) == 2
+        assert "one slider with a building, got 2" in capsys.readouterr().err
+    assert main([*run_it, "--contact", "flight"]) == 2
+    assert "leave out --contact" in capsys.readouterr().err or command == "sweep"
+
+
+def test_slide_warns_of_the_limit_of_a_pendulum(tmp_path, capsys):
+    file = tmp_path / "bearing.json"
+    file.write_text('{"kind": "FrictionPendulum", "radius": 2.2, "mu": 0.06}')
+    code, out, err = run(capsys, "sample:Kobe", "--slider", file)
+    assert code == 0 and "bearing" in out
+    assert err.count("beyond 0.2 of the radius of 2.2 m") == 1
+
+
 def test_the_table_of_an_ensemble_has_units_errors_and_bounds(capsys):
     code, out, err = run_ensemble(capsys, *QUAKE, "--level", 0.02, 0.05, "--confidence", 0.9)
     assert (code, err) == (0, "")

@@ -431,6 +431,17 @@ def test_the_force_of_the_interface() -> None:
     assert SLOPE.coupled(QUAKE).plot_hysteresis().axes
 
 
+def test_the_force_where_a_load_begins_or_jumps_is_that_of_the_slip() -> None:
+    light = ss.Structure.from_modes(mass_fractions=[1e-9], frequencies=[50.0], damping_ratios=[0.1])
+    block = ss.Coulomb(slip_level=1)
+    for interpolation in ("linear", "constant"):
+        motion = ss.GroundMotion([2.0, -3, 0.5, 0], dt=0.1, interpolation=interpolation)
+        r = ss.integrate(ss.IsolatedStructure(block, light), motion)
+        alone = ss.integrate(block, motion)
+        assert r.force[:-1] == pytest.approx(alone.force[:-1], abs=1e-6)
+        assert r.base_acceleration[0] == pytest.approx(1, rel=1e-6)
+
+
 def test_a_loop_of_ones_own() -> None:
     n = QUAKE.acceleration
     up = 3 * np.cos(0.5 * m)

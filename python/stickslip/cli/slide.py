@@ -6,19 +6,23 @@ import argparse
 import math
 import statistics
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from .. import (
     STANDARD_GRAVITY,
     ConvergenceError,
     GroundMotion,
+    IsolatedStructure,
     PlanarResponse,
     PlanarSlider,
     Response,
     Slider,
+    Stops,
+    StructureResponse,
     integrate,
 )
 from .._text import printable
+from .building import BUILDING, building_on
 from .options import add_options
 from .output import check_outputs, column, complain
 from .reading import RECORDS, VERTICAL, Motion, Records
@@ -38,6 +42,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 __all__ = ["add_slide"]
+
+_Response: TypeAlias = Response | PlanarResponse | StructureResponse
 
 _COLUMNS = (
     "file",
@@ -79,6 +85,8 @@ _PLANAR_COLUMNS = (
     "impacts",
     "impact_speed_m_s",
 )
+# With a building: the largest of all floors.
+_FLOOR_COLUMNS = ("peak_base_acceleration_m_s2", "peak_floor_acceleration_m_s2", "peak_drift_m")
 _OPTIONS = """
 [records]
 --scale ratios = 1
@@ -119,8 +127,9 @@ def add_slide(commands: argparse._SubParsersAction) -> None:
         " for an infinite value or an option that was not given. Bad options end the command with"
         " exit code 2 before any file is read.",
     )
-    add_options(parser, RECORDS, SLIDERS, VERTICAL, PLANAR, _OPTIONS, outputs(), _ANIMATE)
-    parser.set_defaults(horizontal=True, run=_slide)
+    tables = (RECORDS, SLIDERS, BUILDING, VERTICAL, PLANAR, _OPTIONS, outputs(), _ANIMATE)
+    add_options(parser, *tables)
+    parser.set_defaults(horizontal=True, contact=None, run=_slide)
 
 
 def _slide(args: argparse.Namespace) -> str:
@@ -135,6 +144,12 @@ def _slide(args: argparse.Namespace) -> str:
     if args.animate and (len(cases) > 1 or args.polarity == "both"):
         raise ValueError("--animate shows one response: give one slider and one polarity")
     sliders = [(case, any_slider_of(case)) for case in cases]
+    systems = [building_on(slider, case) for case, slider in sliders]
+    on_building = any(isinstance(system, IsolatedStructure) for system in systems)
+    if on_building and args.contact == "flight":
+        raise ValueError("a building does not leave its base: leave out --contact flight")
+    if args.plot and on_building and len(cases) > 1:
+        raise ValueError(f"--plot draws one slider with a building, got {len(cases)}")
     records = Records(args)
     report = records.report
     if args.animate:
@@ -143,13 +158,13 @@ def _slide(args: argparse.Namespace) -> str:
         check_moving_suffix(args.animate)
         check_outputs([("--animate", args.animate)], report.inputs)
     rows: list[dict[str, Any]] = []
-    slips, remark = False, ""
+    slips, remark, limit = False, "", ""
     both_ways = args.polarity == "both"
     signs = {"recorded": 1, "reversed": -1}
     polarities = signs if both_ways else {args.polarity: signs[args.polarity or "recorded"]}
     for found in records:
         responses = {}
-        for case, slider in sliders:
+        for (case, slider), system in zip(sliders, systems):
             label = ", ".join(described(case, several, "\u03bc"))
             who = ", ".join(described(case, several))
             with report.kept(found.file, f"{who}: "):
@@ -157,9 +172,10 @@ def _slide(args: argparse.Namespace) -> str:
                 for polarity, sign in polarities.items():
                     factor = sign * case.scale
                     motion = found.motion if factor == 1 else found.motion.scaled(factor)
-                    response = _settle(slider, motion, case.contact)
+                    response = _settle(system, motion, case.contact)
                     responses[label + (f", {polarity}" if both_ways else "")] = response
                     slips = slips or response.time_sliding > 0
+                    limit = limit or (response.remark if response.time_sliding > 0 else "")
                     remark = remark or ("" if slips else response.remark)
                     both.append(_row(case, found, slider, response, polarity))
                 rows += [*both, *([_mean(both)] if both_ways else [])]
@@ -174,15 +190,18 @@ def _slide(args: argparse.Namespace) -> str:
                 report.save(_figure(responses), found)
     if args.units and remark and not slips:
         complain("warning: " + remark.replace('units="g"', "--units g"))
+    if limit:
+        complain(f"warning: {limit}")
     columns = (
         *_COLUMNS,
         *(["slider"] if args.slider else []),
         *(_PLANAR_COLUMNS if args.planar else ()),
+        *(_FLOOR_COLUMNS if on_building else ()),
     )
     return report.answer(columns, rows, _table(rows, several))
 
 
-def _figure(responses: dict[str, Response | PlanarResponse]) -> Figure:
+def _figure(responses: dict[str, _Response]) -> Figure:
     from .. import plotting
 
     if len(responses) == 1:
@@ -193,19 +212,24 @@ def _figure(responses: dict[str, Response | PlanarResponse]) -> Figure:
 
 
 def _settle(
-    slider: Slider | PlanarSlider, motion: GroundMotion, contact: Literal["flight", "clipped"]
-) -> Response | PlanarResponse:
+    system: Slider | PlanarSlider | IsolatedStructure,
+    motion: GroundMotion,
+    contact: Literal["flight", "clipped"] | None,
+) -> _Response:
+    how: dict[str, Any] = {}
+    if contact and not isinstance(system, IsolatedStructure):
+        how["contact"] = contact
     try:
-        return integrate(slider, motion, settle=True, contact=contact)
+        return integrate(system, motion, settle=True, **how)
     except ConvergenceError:
-        return integrate(slider, motion, contact=contact)
+        return integrate(system, motion, **how)
 
 
 def _row(
     args: argparse.Namespace,
     found: Motion,
     slider: Slider | PlanarSlider,
-    response: Response | PlanarResponse,
+    response: _Response,
     polarity: str | None,
 ) -> dict[str, Any]:
     """The row of one response; keys include units."""
@@ -231,7 +255,7 @@ def _row(
         "damping_ratio": args.damping_ratio,
         "stop_gap_m": args.stop_gap,
         "restitution": args.restitution,
-        "contact": response.contact,
+        "contact": getattr(response, "contact", "clipped"),
         "components": response.components,
         "polarity": polarity,
         "peak_m": response.peak,
@@ -240,11 +264,23 @@ def _row(
         "time_sliding_s": response.time_sliding,
         "slips": response.slips,
         "liftoffs": _liftoffs(response),
-        **_impacts(response),
+        **_impacts(response, slider.stops),
         "at_rest": response.at_rest,
         **(_in_file(args, slider) if args.slider else {}),
         **(_in_plane(response) if isinstance(response, PlanarResponse) else {}),
+        **(_of_floors(response) if isinstance(response, StructureResponse) else {}),
     }
+
+
+def _of_floors(response: StructureResponse) -> dict[str, float]:
+    """What a row has besides with a building."""
+    floors = response.floors
+    peaks = (
+        response.peak_base_acceleration,
+        float(floors.peak_acceleration.max()),
+        float(floors.peak_drift.max()),
+    )
+    return dict(zip(_FLOOR_COLUMNS, peaks))
 
 
 def _in_file(args: argparse.Namespace, slider: Slider | PlanarSlider) -> dict[str, Any]:
@@ -261,10 +297,10 @@ def _in_file(args: argparse.Namespace, slider: Slider | PlanarSlider) -> dict[st
     }
 
 
-def _pga(response: Response | PlanarResponse) -> float:
+def _pga(response: _Response) -> float:
     """The peak ground acceleration [m/s^2]; in the plane, of the resultant."""
     motion = response.motion
-    if isinstance(response, Response) or motion.transverse is None:
+    if not isinstance(response, PlanarResponse) or motion.transverse is None:
         return float(motion.peak_acceleration)
     return max(map(math.hypot, motion.acceleration.tolist(), motion.transverse.tolist()))
 
@@ -286,19 +322,19 @@ def _in_plane(response: PlanarResponse) -> dict[str, Any]:
     return found
 
 
-def _liftoffs(response: Response | PlanarResponse) -> int | None:
+def _liftoffs(response: _Response) -> int | None:
     """How often the slider left the ground; None without vertical motion."""
     if "vertical" not in response.components:  # and no array is made, which would import NumPy
         return None
     return int((response.events["kind"] == "liftoff").sum())
 
 
-def _impacts(response: Response | PlanarResponse) -> dict[str, Any]:
+def _impacts(response: _Response, stops: Stops | None) -> dict[str, Any]:
     """The number of impacts on each stop and the largest speed before one; None without stops, or
     with a circular one."""
     names = ("impacts_{}", "impact_speed_{}_m_s")
     if (
-        isinstance(response, PlanarResponse) or response.slider.stops is None
+        isinstance(response, PlanarResponse) or stops is None
     ):  # and no array is made, which would import NumPy
         return {name.format(side): None for side in ("forward", "backward") for name in names}
     hits = response.impacts
@@ -321,6 +357,7 @@ def _mean(rows: list[dict[str, Any]]) -> dict[str, Any]:
     names = ("peak_m", "residual_m", "sliding_distance_m", "time_sliding_s", "slips")
     if rows[0]["impacts_forward"] is not None:
         names += tuple(name for name in rows[0] if name.startswith("impact"))
+    names += tuple(name for name in _FLOOR_COLUMNS if name in rows[0])
     return {
         **rows[0],
         "polarity": "mean",
@@ -338,7 +375,7 @@ def _table(rows: list[dict[str, Any]], several: list[str]) -> Iterable[str]:
     first = "slider" if "slider" in rows[0] else "mu"
     shown = [first, *(name for name, key in given.items() if rows[0][key] is not None)]
     shown += [name for name in several if name not in shown]
-    planar = "impacts" in rows[0]
+    planar, building = "impacts" in rows[0], _FLOOR_COLUMNS[0] in rows[0]
     stops = rows[0]["impacts" if planar else "impacts_forward"] is not None
     width = max(len("record"), *map(len, names))
     both = any(row["polarity"] for row in rows)
@@ -347,6 +384,7 @@ def _table(rows: list[dict[str, Any]], several: list[str]) -> Iterable[str]:
         "  residual [cm]  distance [cm]  sliding [s]  slips"
         f"{'  impacts  at most [m/s]' if stops else ''}"
         f"{'  azimuth of peak' if planar else ''}"
+        f"{'  floors at most [g]  drift at most [mm]' if building else ''}"
     )
     last: object = None
     for name, row in zip(names, rows):
@@ -360,6 +398,7 @@ def _table(rows: list[dict[str, Any]], several: list[str]) -> Iterable[str]:
             f"  {column(row['time_sliding_s'], 11)}"
             f"  {row['slips']:5g}{_hits(row) if stops else ''}"
             f"{_azimuth(row) if planar else ''}"
+            f"{_floors(row) if building else ''}"
             f"{'' if row['at_rest'] else '  never rests: at end of record'}"
         )
         last = this
@@ -384,6 +423,14 @@ def _azimuth(row: dict[str, Any]) -> str:
     """The column of the direction of the peak, empty where it is not known."""
     azimuth = row["peak_azimuth_degrees"]
     return f"  {'' if azimuth is None else f'{azimuth:.0f}':>15}"
+
+
+def _floors(row: dict[str, Any]) -> str:
+    """The columns of a building."""
+    return (
+        f"  {column(row['peak_floor_acceleration_m_s2'] / STANDARD_GRAVITY, 18, 3)}"
+        f"  {column(1000 * row['peak_drift_m'], 18)}"
+    )
 
 
 def _name(row: dict[str, Any]) -> str:

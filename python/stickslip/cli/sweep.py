@@ -9,6 +9,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .building import BUILDING, building_on
 from .options import SCALE, add_options
 from .output import column, complain
 from .reading import RECORDS, VERTICAL, Records
@@ -62,9 +63,9 @@ def add_sweep(commands: argparse._SubParsersAction) -> None:
         " stderr; the statistics are those of the others, and the exit code is 1. CSV and JSON"
         " have every response; in JSON the statistics are listed besides.",
     )
-    tables = (RECORDS, SLIDERS, VERTICAL, PLANAR, SCALE, _POLARITY, outputs(each=""))
+    tables = (RECORDS, SLIDERS, BUILDING, VERTICAL, PLANAR, SCALE, _POLARITY, outputs(each=""))
     add_options(parser, *tables)
-    parser.set_defaults(horizontal=True, one_picture=True, run=_sweep)
+    parser.set_defaults(horizontal=True, one_picture=True, contact=None, run=_sweep)
 
 
 def _sweep(args: argparse.Namespace) -> str:
@@ -76,7 +77,7 @@ def _sweep(args: argparse.Namespace) -> str:
     if args.planar:
         check_planar(args)
     parameters = {name: [getattr(case, name) for case in cases] for name in shown}
-    sliders = Grid([any_slider_of(case) for case in cases], parameters)
+    sliders = Grid([building_on(any_slider_of(case), case) for case in cases], parameters)
     records = Records(args, scaled=True)
     report = records.report
     found = list(records)
