@@ -63,6 +63,9 @@ PYBIND11_MODULE(_core, m) {
   bind_planar_response(m);
   bind_planar_integrate(m);
   bind_structure(m);
+  bind_isolated_structure(m);
+  bind_equipment_on_floor(m);
+  bind_flexible_slope(m);
   bind_structure_advance(m);
   bind_structure_response(m);
   bind_slender_block(m);

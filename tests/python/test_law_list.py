@@ -57,7 +57,7 @@ ALONE = {
         "include/stickslip/structure/flexible_slope.hpp",  # a yield acceleration that decreases
         "src/structure/flexible_slope.cpp",
         "src/structure/sweep.cpp",
-        "python/bindings/structure/structure.cpp",
+        "python/bindings/structure/flexible_slope.cpp",
     },
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <variant>
 
 #include "bindings.hpp"
@@ -22,7 +23,13 @@ inline std::optional<AnyStructure> structure_of(const py::handle& object) {
   return std::nullopt;
 }
 
+/// The text of a structure, also in that of what contains it.
+std::string description(const Structure& structure);
+
 void bind_structure(py::module_& m);
+void bind_isolated_structure(py::module_& m);
+void bind_equipment_on_floor(py::module_& m);
+void bind_flexible_slope(py::module_& m);
 void bind_structure_advance(py::module_& m);
 void bind_structure_response(py::module_& m);
 
