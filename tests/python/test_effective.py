@@ -135,3 +135,11 @@ def test_without_a_loop_the_reason_is_named(record_a):
                 getattr(r, name)
     moving = ss.integrate(FLOOR, still, velocity=1, settle=True)
     assert moving.effective_period < math.pi
+
+
+def test_the_largest_force_is_that_on_arrival_at_the_largest_displacement():
+    quake = ss.GroundMotion(3 * np.sin(0.7 * np.arange(200)), dt=0.1)
+    r = ss.integrate(FLOOR, quake)
+    assert r.peak_force == pytest.approx(LEVEL + WN**2 * r.peak, rel=1e-12)
+    assert abs(r.at(r.peak_force_time).displacement) == pytest.approx(r.peak, rel=1e-12)
+    assert abs(r.force).max() <= r.peak_force

@@ -178,6 +178,8 @@ class Cells:
         r = self.response
         assert np.isfinite(r.force).all()
         assert np.isfinite(r.acceleration).all()
+        assert r.peak_force >= abs(r.force).max() * (1 - 1e-12)
+        assert r.time[0] <= r.peak_force_time <= r.time[-1]
 
     def floor_spectrum(self):
         values = ss.response_spectrum(self.response, [0.2, 0.5, 2.0]).values

@@ -92,3 +92,54 @@ TEST_CASE("after the ground motion what a stuck slider holds is its spring", "[f
   CHECK(f.total(r.displacement.size() - 1) == 0);
   CHECK(f.friction.back() == -slider.stiffness() * r.residual);
 }
+
+TEST_CASE("the largest force has its closed form", "[forces]") {
+  // On arrival at the largest displacement, without a damper.
+  const double level = 0.5, wn = 2;
+  const Slider slider(Coulomb(level), wn);
+  const auto interpolation = GENERATE(Interpolation::linear, Interpolation::constant);
+  const GroundMotion motion = record_a(interpolation);
+  const Response r = integrate(slider, motion);
+  const LargestForce f = peak_force(slider, motion, r);
+  CHECK(f.force == Approx(wn * wn * r.peak + level).epsilon(1e-13));
+  const double at[] = {f.time};
+  CHECK(std::abs(states_at(slider, motion, r, at)[0].displacement) == Approx(r.peak).epsilon(1e-13));
+  // Without a spring friction is all, from the first slip on.
+  const Response block = integrate(Coulomb(level), motion);
+  const LargestForce friction = peak_force(Coulomb(level), motion, block);
+  CHECK(friction.force == Approx(level).epsilon(1e-13));
+  CHECK(friction.time <= block.events.front().time + 1e-9);
+}
+
+TEST_CASE("the largest force of a linear oscillator at resonance is that of spring and damper", "[forces]") {
+  const double ratio = 0.1, wn = 3, c = 2 * ratio * wn, amplitude = 1 / (c * wn);
+  const Slider slider(Coulomb(0), wn, c);
+  // x = amplitude sin(wn t): wn^2 x + c x' has the amplitude of both
+  const HarmonicMotion motion(1, wn, 10, 0.01);
+  const Response r = integrate(slider, motion, from(0, amplitude * wn));
+  CHECK(peak_force(slider, motion, r).force == Approx(amplitude * std::hypot(wn * wn, c * wn)).epsilon(1e-9));
+}
+
+TEST_CASE("the largest force is that of many samples", "[forces]") {
+  std::vector<double> n;
+  const std::vector<double> coarse = record_a_samples();
+  for (std::size_t k = 0; k < 400 * 16; ++k)
+    n.push_back(std::lerp(coarse[k / 16], coarse[k / 16 + 1], static_cast<double>(k % 16) / 16));
+  const GroundMotion fine(n, 0.1 / 16);
+  const auto check = [&](const auto& slider) {
+    const Response r = integrate(slider, fine);
+    const Forces many = forces(slider, fine, r);
+    const double found = peak_force(slider, record_a(), integrate(slider, record_a())).force;
+    double largest = 0;
+    for (std::size_t i = 0; i < many.friction.size(); ++i) largest = std::max(largest, std::abs(many.total(i)));
+    CHECK(peak_force(slider, fine, r).force == Approx(found).epsilon(1e-9));
+    CHECK(found >= largest * (1 - 1e-11));
+    CHECK(found <= largest * 1.01);
+  };
+  for (const double wn : {0.0, 1.3, 9.0})
+    for (const double c : {0.0, 0.4}) {
+      check(Slider(Coulomb(1, 1.6), wn, c));
+      check(Slider(Caster(1, 0.01), wn, c));
+      check(Slider(VelocityDependent(0.6, 1.2, 5), wn, c));
+    }
+}

@@ -16,6 +16,7 @@
 #include "stickslip/planar/state.hpp"
 #include "stickslip/planar/trajectory.hpp"
 #include "stickslip/planar/vector.hpp"
+#include "stickslip/run/detail/largest.hpp"
 #include "stickslip/sliding/forces.hpp"
 #include "stickslip/units.hpp"
 
@@ -95,32 +96,12 @@ class PeakForce final : public PlanarTrajectoryReader {
   // The force is smooth in the parameter of an arc, which ends before it changes much.
   void arc(const PlanarArc& arc) override {
     rest_until(arc.begin);
-    constexpr int parts = 8;
-    const auto resultant = [&](double s) {
+    look_for_largest(arc.last, 8, peak, [&](double s) {
       const double time = arc.begin + arc.at(s).time, force = norm(load(time) - arc.acceleration(s));
       look(force, time);
       return force;
-    };
-    const double end = arc.last;
-    double largest = 0;
-    int where = 0;
-    for (int i = 0; i <= parts; ++i)
-      if (const double here = resultant(end * i / parts); here > largest) largest = here, where = i;
-    now_ = arc.begin + arc.at(end).time;
-    if (largest < 0.9 * peak) return;
-    double low = end * std::max(where - 1, 0) / parts, high = end * std::min(where + 1, parts) / parts;
-    constexpr double golden = 0.6180339887498949;
-    double left = high - golden * (high - low), right = low + golden * (high - low);
-    double at_left = resultant(left), at_right = resultant(right);
-    for (int i = 0; i < 40; ++i) {
-      if (at_left < at_right) {
-        low = left, left = right, at_left = at_right;
-        right = low + golden * (high - low), at_right = resultant(right);
-      } else {
-        high = right, right = left, at_right = at_left;
-        left = high - golden * (high - low), at_left = resultant(left);
-      }
-    }
+    });
+    now_ = arc.begin + arc.at(arc.last).time;
   }
 
   double peak = 0, peak_time = 0;

@@ -207,12 +207,9 @@ max(N, 0), N = (g + a_z) cos(slope) + n sin(slope); 0 in flight.)")
 
 The force per unit mass between the mass and the ground, such as that of an isolator.)")
       .def_property_readonly(
-          "peak_force", [](Self& r) { return forces_of(r).peak; },
-          R"(Largest resultant |friction + damper + spring| over all time, not only at samples [m/s^2].
-
-Found by a search within each step of the motion, which is integrated once more on first access; accurate to 1e-9.)")
+          "peak_force", [](Self& r) { return forces_of(r).peak; }, peak_force_doc)
       .def_property_readonly(
-          "peak_force_time", [](Self& r) { return forces_of(r).peak_time; }, "Time of `peak_force` [s].")
+          "peak_force_time", [](Self& r) { return forces_of(r).peak_time; }, peak_force_time_doc)
       .def_property_readonly(
           "stuck", [](Self& r) { return array_of(forces_of(r).stuck).attr("view")("?"); },
           "Whether the slider sticks at `time` (bool), shape (N,); just after the sample if that "

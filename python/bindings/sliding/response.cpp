@@ -62,6 +62,13 @@ const Forces& forces_of(ResponseWithInputs& self) {
   return *self.forces;
 }
 
+const LargestForce& largest_force_of(ResponseWithInputs& self) {
+  if (!self.largest_force)
+    self.largest_force = with_inputs(
+        self, [&](const auto& slider, const auto& motion) { return peak_force(slider, motion, self.response); });
+  return *self.largest_force;
+}
+
 // A read-only array of `value(forces, i)` at each sample.
 template <class Value>
 auto at_samples(Value&& value) {
@@ -360,6 +367,10 @@ None unless the friction law depends on it.)")
 
 The force per unit mass between the mass and the ground, such as that of an isolator; positive for positive
 displacement.)")
+      .def_property_readonly(
+          "peak_force", [](ResponseWithInputs& r) { return largest_force_of(r).force; }, peak_force_doc)
+      .def_property_readonly(
+          "peak_force_time", [](ResponseWithInputs& r) { return largest_force_of(r).time; }, peak_force_time_doc)
       .def_property_readonly(
           "stuck", [](ResponseWithInputs& r) { return array_of(forces_of(r).stuck).attr("view")("?"); },
           "Whether the slider sticks at `time` (bool), shape (N,); just after the sample if that changes there.")

@@ -52,6 +52,16 @@ UnitParameter parameter_of(const std::string& name, const std::string& who);
 /// Events as a structured array, that of `Response.events`.
 py::array events_array(const std::vector<Event>& events);
 
+/// Of `peak_force` and `peak_force_time` of every response.
+inline constexpr const char* peak_force_doc =
+    R"(Largest |friction + damper + spring| over all time, not only at samples [m/s^2].
+
+Of vectors their resultant, of a structure that of its interface per unit of the reference mass; the impulses of stops do
+not count. Found by a search within each step of the motion, which is integrated once more on first access; accurate to
+1e-9.)";
+inline constexpr const char* peak_force_time_doc =
+    "Time of `peak_force` [s], to 1e-6 of a slip; the first, where it is constant.";
+
 /// The name of a kind of event, for structured arrays: at most ten characters.
 constexpr const char32_t* name_of(EventKind kind) {
   switch (kind) {
@@ -140,6 +150,7 @@ struct ResponseWithInputs {
   py::object motion;
   py::object time{}, events{};     // arrays, made on first access
   std::optional<Forces> forces{};  // likewise
+  std::optional<LargestForce> largest_force{};
 
   ResponseWithInputs(Response&& answer, py::object what, py::object under)
       : response(std::move(answer)), slider(std::move(what)), motion(std::move(under)) {}
