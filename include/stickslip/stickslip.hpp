@@ -58,6 +58,7 @@
 #include "stickslip/structure/identity.hpp"
 #include "stickslip/structure/isolated_structure.hpp"
 #include "stickslip/structure/sweep.hpp"
+#include "stickslip/structure/trajectory.hpp"
 #include "stickslip/sweep/orientations.hpp"
 #include "stickslip/sweep/planar_sweep.hpp"
 #include "stickslip/sweep/sweep.hpp"

@@ -12,7 +12,15 @@ from numpy.typing import NDArray
 
 from ._core import StructureResponse, build_info
 from ._optional import optional
-from ._tables import frame_of, has_drifts, has_floors, html_table, json_text, write_csv
+from ._tables import (
+    frame_of,
+    has_drifts,
+    has_floors,
+    html_table,
+    json_text,
+    loop_rows,
+    write_csv,
+)
 from ._text import printable
 
 if TYPE_CHECKING:
@@ -207,6 +215,7 @@ def response_html(response: StructureResponse) -> str:
         rows.append(("highest temperature", f"{response.temperature.max():.4g} °C, at samples"))
     if len(response.impacts):
         rows.append(("impacts on stops", f"{len(response.impacts):,}"))
+    rows += loop_rows(response)
     if response.remark:
         rows.append(("remark", response.remark))
     return html_table("Response of a structure", [], rows)

@@ -358,16 +358,23 @@ def response_html(response: Response | PlanarResponse) -> str:
         flights = (response.events["kind"] == "liftoff").sum()
         rows.append(("contact with the ground", f"{response.contact}, {flights:,} flights"))
     if isinstance(response, Response):
-        try:
-            rows.append(("effective period", f"{response.effective_period:.4g} s"))
-            rows.append(("effective damping", f"{100 * response.effective_damping:.3g} %"))
-        except ValueError:
-            pass  # no loop
+        rows += loop_rows(response)
     if response.remark:
         rows.append(("remark", response.remark))
     return html_table(
         "Response in the plane" if isinstance(response, PlanarResponse) else "Response", [], rows
     )
+
+
+def loop_rows(response: Response | StructureResponse) -> list[tuple[str, str]]:
+    """Effective period and damping as rows of a table; none without a loop."""
+    try:
+        return [
+            ("effective period", f"{response.effective_period:.4g} s"),
+            ("effective damping", f"{100 * response.effective_damping:.3g} %"),
+        ]
+    except ValueError:
+        return []
 
 
 def _meters(displacement: float | NDArray[np.float64]) -> str:

@@ -80,6 +80,34 @@ double largest_magnitude(const double* c, int degree, double least) {
   return search(c, degree, b, 0, 1, least);
 }
 
+double product_integral(const double* a, int degree_a, const double* b, int degree_b) {
+  double sum = 0;
+  for (int i = 0; i <= degree_a; ++i) {
+    double inner = 0;
+    for (int k = 0; k <= degree_b; ++k) inner += b[k] / (i + k + 1);
+    sum += a[i] * inner;
+  }
+  return sum;
+}
+
+Polynomial Expansion::force(Mode mode) const {
+  const double s = static_cast<double>(static_cast<int>(mode));
+  Polynomial sum = pull_;
+  for (int k = 0; k <= order_; ++k)
+    sum[at(k)] += mode == Mode::stuck ? q_[at(k)] : s * friction_[at(k)] + of_.damper * v_[at(k)];
+  return sum;
+}
+
+double Expansion::friction_work(double s) const {
+  if (!std::isnan(dissipating_)) {
+    const Polynomial dissipates{dissipating_ * weight_[0], dissipating_ * weight_[1]};
+    return s * h_ * product_integral(dissipates.data(), 1, v_.data(), order_);
+  }
+  int last = order_;
+  while (last > 0 && equal(friction_[at(last)], 0)) --last;
+  return s * h_ * product_integral(friction_.data(), last, v_.data(), order_);
+}
+
 void check_rate(const ModalInterface& of, double step) {
   constexpr double most = SlidingStructure::most_rate_per_step;
   const double product = of.fastest * step;

@@ -46,6 +46,9 @@ Polynomial bernstein(const double* c, int degree);
 /// The largest magnitude of a polynomial on [0, 1], or `least` if that is larger.
 double largest_magnitude(const double* c, int degree, double least);
 
+/// The integral over [0, 1] of a product of polynomials.
+double product_integral(const double* a, int degree_a, const double* b, int degree_b);
+
 inline double mean_step(const GroundMotion& motion) noexcept {
   return motion.duration() / static_cast<double>(motion.segments());
 }
@@ -159,6 +162,14 @@ class Expansion {
   Rows modal_displacement() const noexcept { return rows(y_); }  // one row per order
   Rows modal_velocity() const noexcept { return rows(rate_); }
   Rows modal_acceleration() const noexcept { return rows(acceleration_); }
+
+  /// Force of friction, spring and damper between both sides of the interface [m/s^2], positive where it pulls toward
+  /// negative x.
+  Polynomial force(Mode mode) const;
+  /// Work against friction of a slip in a direction, without that of springs in the law, and against the damper of the
+  /// interface [m^2/s^2].
+  double friction_work(double s) const;
+  double damper_work() const { return of_.damper * h_ * product_integral(v_.data(), order_, v_.data(), order_); }
 
   /// Distance slid in a direction at a part of h, and x' at it.
   double distance(double s, double u) const { return s * u * value_at(x_.data() + 1, order_ - 1, u); }

@@ -5,17 +5,6 @@
 namespace stickslip::detail {
 namespace {
 
-// The integral over [0, 1] of a product of polynomials.
-double product_integral(const double* a, int degree_a, const double* b, int degree_b) {
-  double sum = 0;
-  for (int i = 0; i <= degree_a; ++i) {
-    double inner = 0;
-    for (int k = 0; k <= degree_b; ++k) inner += b[k] / (i + k + 1);
-    sum += a[i] * inner;
-  }
-  return sum;
-}
-
 // Powers of the nodes of a Gauss rule. Squares of velocities are polynomials with the amplitudes of exp(6) at most:
 // twelve points integrate them to round-off.
 constexpr int points = 12;
@@ -36,10 +25,10 @@ const Eigen::MatrixXd& powers() {
 
 }  // namespace
 
-StructureRecorder::StructureRecorder(const ModalInterface& of, const FloorRows* rows, bool loops, double from,
-                                     std::size_t event_limit, const std::function<void()>& progress,
+StructureRecorder::StructureRecorder(const ModalInterface& of, const FloorRows* rows, StructureReader* reader,
+                                     double from, std::size_t event_limit, const std::function<void()>& progress,
                                      StructureResponse& response)
-    : EventLog(event_limit, {}), Pace(progress), of_(of), response_(response), loops_(loops) {
+    : EventLog(event_limit, {}), Pace(progress), of_(of), response_(response), reader_(reader) {
   response_.peak = std::abs(from);
   response_.margin = std::numeric_limits<double>::infinity();
   if (rows != nullptr) floors_.emplace(of, *rows);
@@ -55,12 +44,12 @@ void StructureRecorder::follow(const Expansion& motion, Mode mode) {
   count_work();
   add_work(motion, mode);
   if (floors_) floors_->include(motion);
-  if (loops_) draw(motion, mode);
+  if (reader_ != nullptr) show(motion, mode);
 }
 
 bool StructureRecorder::pass(const LinearMove& move, const StructureState& from, double level) {
   if (floors_) floors_->include(move);
-  if (loops_) move.expand(of_, [&](const Expansion& motion) { draw(motion, from.mode); });
+  if (reader_ != nullptr) move.expand(of_, [&](const Expansion& motion) { show(motion, from.mode); });
   count_work();
   if (!balance_) {
     const auto [kinetic, elastic] = energy_of(of_, from);
@@ -90,24 +79,10 @@ void StructureRecorder::balance(const StructureState& state) {
   balance_.reset();
 }
 
-void StructureRecorder::draw(const Expansion& motion, Mode mode) {
-  const int order = motion.order(), parts = mode == Mode::stuck ? 2 : 4;
-  const double s = static_cast<double>(static_cast<int>(mode));
-  const auto at = [&](const double* c, double u) { return value_at(c, order, u); };
-  for (int i = 0; i <= parts; ++i) {
-    const double u = static_cast<double>(i) / parts;
-    double force = at(motion.pull(), u);
-    if (mode == Mode::stuck)
-      force += at(motion.demand(), u);
-    else
-      force += s * at(motion.friction(), u) + of_.damper * at(motion.velocity(), u);
-    const InterfacePoint next{std::min(now_ + u * motion.duration(), segment_ends()), at(motion.displacement(), u),
-                              force};
-    auto& points = response_.loops;
-    if (i > 0 || points.empty() || std::abs(points.back().force - force) > 1e-12 * std::abs(force))
-      points.push_back(next);
-  }
+void StructureRecorder::show(const Expansion& motion, Mode mode) {
+  const double begin = now_;
   now_ += motion.duration();
+  reader_->arc(begin, std::min(now_, segment_ends()), motion, mode);
 }
 
 void StructureRecorder::add_work(const Expansion& motion, Mode mode) {
@@ -119,16 +94,10 @@ void StructureRecorder::add_work(const Expansion& motion, Mode mode) {
     const double s = static_cast<double>(static_cast<int>(mode));
     response_.sliding_distance += std::max(motion.distance(s, 1), 0.0);
     response_.time_sliding += h;
-    if (const double level = motion.dissipating(); std::isnan(level)) {
-      const double* friction = motion.friction();
-      int last = order;
-      while (last > 0 && equal(friction[last], 0)) --last;
-      energy.dissipated += s * h * product_integral(friction, last, v, order);
-    } else {
+    energy.dissipated += motion.friction_work(s);
+    if (const double level = motion.dissipating(); !std::isnan(level)) {
       // The rest of the level is that of springs, of whose force under the weight `elastic` is the energy.
       const auto [weight, gains] = motion.weight();
-      const Polynomial dissipates{level * weight, level * gains};
-      energy.dissipated += s * h * product_integral(dissipates.data(), 1, v, order);
       Polynomial part{};
       const double* all = motion.level();
       for (int k = 0; k <= order; ++k) {
@@ -137,7 +106,7 @@ void StructureRecorder::add_work(const Expansion& motion, Mode mode) {
       }
       energy.input -= s * h * product_integral(part.data(), order, v, order);
     }
-    if (of_.damper > 0) energy.damped += of_.damper * h * product_integral(v, order, v, order);
+    if (of_.damper > 0) energy.damped += motion.damper_work();
     if (of_.driven) energy.input += h * product_integral(motion.demand(), order, v, order);
     if (of_.driven || of_.spring.pendulum) {
       // The part of the load that is not the spring's, or the deviation of a pendulum from its spring.

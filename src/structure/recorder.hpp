@@ -11,9 +11,11 @@
 #include <vector>
 
 #include "stickslip/base/min_max.hpp"
+#include "stickslip/ground/segment.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/run/detail/event_log.hpp"
 #include "stickslip/structure/response.hpp"
+#include "stickslip/structure/sliding_structure.hpp"
 #include "structure/expansion.hpp"
 #include "structure/floor_rows.hpp"
 #include "structure/linear_step.hpp"
@@ -52,11 +54,32 @@ class FloorMaxima {
   std::vector<LinearMove> open_{};
 };
 
+/// Reads a motion while it is integrated, in order.
+class StructureReader {
+ public:
+  /// Before each segment, with the state at its beginning. Times are from `begin` to `end` [s].
+  virtual void segment(double /*begin*/, double /*end*/, const LoadSegment&, const StructureState&) {}
+  /// A part of a segment with one mode, if they are read: a series of all quantities.
+  virtual void arc(double /*begin*/, double /*end*/, const Expansion&, Mode) {}
+  bool reads_arcs() const noexcept { return reads_arcs_; }
+
+ protected:
+  explicit StructureReader(bool reads_arcs) noexcept : reads_arcs_(reads_arcs) {}
+  ~StructureReader() = default;
+
+ private:
+  bool reads_arcs_;
+};
+
+/// `integrate`, while a reader reads the motion.
+StructureResponse integrate(const SlidingStructure& system, const GroundMotion& motion,
+                            const StructureIntegrateOptions& options, StructureReader* reader);
+
 class StructureRecorder : public StructureSink, public EventLog<double>, public Pace<4096> {
  public:
-  /// @param loops  whether to keep StructureResponse::loops
-  StructureRecorder(const ModalInterface& of, const FloorRows* rows, bool loops, double from, std::size_t event_limit,
-                    const std::function<void()>& progress, StructureResponse& response);
+  /// @param reader  of the arcs; may be null
+  StructureRecorder(const ModalInterface& of, const FloorRows* rows, StructureReader* reader, double from,
+                    std::size_t event_limit, const std::function<void()>& progress, StructureResponse& response);
 
   void begin_segment(double begin, double end) noexcept {
     EventLog::begin_segment(begin, end);
@@ -78,14 +101,14 @@ class StructureRecorder : public StructureSink, public EventLog<double>, public 
 
  private:
   void add_work(const Expansion& motion, Mode mode);
-  void draw(const Expansion& motion, Mode mode);
+  void show(const Expansion& motion, Mode mode);
 
   const ModalInterface& of_;
   std::optional<FloorMaxima> floors_{};
   StructureResponse& response_;
   std::optional<std::pair<double, Energy>> balance_{};  // the energy of the structure, and the sums, before them
-  bool loops_;
-  double now_ = 0;  // the beginning of the next expansion [s]
+  StructureReader* reader_;                             // of arcs; null for none
+  double now_ = 0;                                      // the beginning of the next expansion [s]
 };
 
 /// Records nothing.

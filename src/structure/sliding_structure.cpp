@@ -160,8 +160,9 @@ class StructureRun {
   class Recorder final : public detail::StructureRecorder {
    public:
     Recorder(const StructureRun& run, const State& state, Response& response)
-        : StructureRecorder(run.of_, run.wanted_, run.options_.loops, state.displacement,
-                            detail::max_events(run.motion_.segments()), run.options_.progress, response),
+        : StructureRecorder(
+              run.of_, run.wanted_, run.reader_ != nullptr && run.reader_->reads_arcs() ? run.reader_ : nullptr,
+              state.displacement, detail::max_events(run.motion_.segments()), run.options_.progress, response),
           run_(run),
           histories(run.system_, response, run.motion_.samples(), HeatedLaw<Law>) {}
 
@@ -179,12 +180,13 @@ class StructureRun {
   };
 
   StructureRun(const SlidingStructure& system, const Law& law, const GroundMotion& motion,
-               const StructureIntegrateOptions& options)
+               const StructureIntegrateOptions& options, detail::StructureReader* reader)
       : system_(system),
         of_(system.modal()),
         law_(law),
         motion_(motion),
         options_(options),
+        reader_(reader),
         rows_(of_),
         wanted_(options.floors ? &rows_ : nullptr),
         pieces_(motion, 0),
@@ -210,6 +212,7 @@ class StructureRun {
   Recorder recorder(const State& state, Response& response) const {
     response.contact = Contact::clipped;
     if (motion_.has_vertical()) response.components = "axis + vertical";
+    response.initial_state = state;
     return {*this, state, response};
   }
 
@@ -258,6 +261,7 @@ class StructureRun {
  private:
   void move(double begin, double end, const LoadSegment& segment, State& state, Recorder& recorder) const {
     recorder.begin_segment(begin, end);
+    if (reader_ != nullptr) reader_->segment(begin, end, segment, state);
     if (path_.pass(segment, state, recorder)) return;
     recorder.balance(state);
     detail::move_structure(of_, law_, segment, state, expansion_, recorder);
@@ -268,6 +272,7 @@ class StructureRun {
   const Law& law_;
   const GroundMotion& motion_;
   const StructureIntegrateOptions& options_;
+  detail::StructureReader* reader_;  // null for none
   detail::FloorRows rows_;
   const detail::FloorRows* wanted_;  // null for none
   detail::LoadPieces pieces_;
@@ -328,13 +333,18 @@ double SlidingStructure::demand(const StructureState& state, double ground, doub
   return data_->modal.demand_of(state, ground, weight);
 }
 
-StructureResponse integrate(const SlidingStructure& system, const GroundMotion& motion,
-                            const StructureIntegrateOptions& options) {
+StructureResponse detail::integrate(const SlidingStructure& system, const GroundMotion& motion,
+                                    const StructureIntegrateOptions& options, StructureReader* reader) {
   StructureResponse response;
-  detail::with_interface_law(system.slider(), [&](const auto& law) {
-    response = detail::integrate_run(StructureRun(system, law, motion, options), {});
+  with_interface_law(system.slider(), [&](const auto& law) {
+    response = integrate_run(StructureRun(system, law, motion, options, reader), {});
   });
   return response;
+}
+
+StructureResponse integrate(const SlidingStructure& system, const GroundMotion& motion,
+                            const StructureIntegrateOptions& options) {
+  return detail::integrate(system, motion, options, nullptr);
 }
 
 void advance(const SlidingStructure& system, const LoadSegment& segment, StructureState& state) {

@@ -239,10 +239,15 @@ class SystemCells(Cells):
         assert ss.integrate(self.slider, self.motion, settle=True).at_rest
 
     def forces(self):
-        assert np.isfinite(self.response.force).all()
+        r = self.response
+        assert np.isfinite(r.force).all()
+        sizes = np.linalg.norm(r.force.reshape(len(r.time), -1), axis=1)
+        assert r.peak_force >= sizes.max() * (1 - 1e-12)
 
     def effective_period(self):
-        assert self.response.effective_period > 0
+        r = self.response
+        assert r.effective_period > 0
+        assert 0 < r.effective_damping < 1.5
 
 
 class RockingCells(SystemCells):
@@ -346,6 +351,7 @@ SYSTEMS = {
 }
 NOT_OF_SYSTEMS = {
     "no": r"on one axis, got a PlanarSlider|sliders must be a Slider, a friction law|no attribute"
+    r"|needs a slider on a spring"
     r"|covers a SlenderBlock|sensitivities of structures are not"
     r"|a Suite, got <(Rocking|Cart)Response"
 }

@@ -268,6 +268,12 @@ def test_the_drawn_secant_is_the_effective_stiffness():
     (text,) = axes.get_legend().get_texts()
     assert f"{r.effective_period:.2f} s" in text.get_text()
     assert ss.integrate(SLIDERS["block"], motion()).plot_hysteresis().axes[0].get_legend() is None
+    building = ss.Structure.from_modes(
+        mass_fractions=[0.5], frequencies=[20.0], damping_ratios=[0.05]
+    )
+    r = ss.integrate(ss.IsolatedStructure(SLIDERS["spring"], building), motion())
+    (text,) = r.plot_hysteresis().axes[0].get_legend().get_texts()
+    assert f"{r.effective_period:.2f} s" in text.get_text()
 
 
 def test_a_picture_of_one_panel_is_drawn_into_given_axes():

@@ -442,6 +442,46 @@ def test_the_force_where_a_load_begins_or_jumps_is_that_of_the_slip() -> None:
         assert r.base_acceleration[0] == pytest.approx(1, rel=1e-6)
 
 
+def test_the_largest_force_and_the_effective_period_of_the_interface() -> None:
+    slider = ss.Slider(ss.Coulomb(mu=0.1), natural_frequency=2, damping=0.3)
+    r = ss.integrate(ss.IsolatedStructure(slider, BUILDING, base_mass=1), QUAKE)
+    assert r.peak_force >= abs(r.force).max() * (1 - 1e-12)
+    assert r.peak_force == pytest.approx(abs(r._curve()["force"]).max(), rel=1e-2)
+    # a building without mass is the slider alone
+    light = ss.Structure.from_modes(
+        mass_fractions=[1e-12], frequencies=[8.0], damping_ratios=[0.05]
+    )
+    found = ss.integrate(ss.IsolatedStructure(slider, light), QUAKE)
+    alone = ss.integrate(slider, QUAKE)
+    for name in ("peak_force", "effective_period", "effective_damping"):
+        assert getattr(found, name) == pytest.approx(getattr(alone, name), rel=1e-11)
+    assert found.peak_force_time == pytest.approx(alone.peak_force_time, abs=1e-6)
+    assert f"{found.effective_period:.4g} s" in found._repr_html_()
+    with pytest.raises(ValueError, match="needs a slider on a spring"):
+        _ = SLOPE.coupled(QUAKE).effective_damping
+    assert SLOPE.coupled(QUAKE).peak_force >= abs(SLOPE.coupled(QUAKE).force).max()
+    assert "effective" not in SLOPE.coupled(QUAKE)._repr_html_()
+
+
+@pytest.mark.parametrize("system", [ISOLATED, EQUIPMENT, SLOPE], ids=lambda s: type(s).__name__)
+def test_the_motion_at_any_times(system) -> None:
+    r = ss.integrate(system, QUAKE)
+    rows = r.at(r.time[::-1])[::-1]
+    assert np.array_equal(rows["time"], r.time)
+    for name in ("displacement", "velocity"):
+        np.testing.assert_allclose(rows[name], getattr(r, name), rtol=0, atol=1e-12)
+    np.testing.assert_allclose(rows["floor_displacement"], r.floors.displacement, atol=1e-12)
+    assert 0 < rows["stuck"].sum() < len(rows)
+    # between the samples as with ten times as many
+    fine = ss.integrate(system, QUAKE.resampled(0.01))
+    rows = r.at(fine.time)
+    np.testing.assert_allclose(rows["displacement"], fine.displacement, rtol=0, atol=1e-11)
+    np.testing.assert_allclose(rows["floor_displacement"], fine.floors.displacement, atol=1e-11)
+    assert isinstance(r.at(0.5), ss.StructureState)
+    with pytest.raises(ValueError, match="the start and the end of the response"):
+        r.at([0.5, 1e3])
+
+
 def test_a_loop_of_ones_own() -> None:
     n = QUAKE.acceleration
     up = 3 * np.cos(0.5 * m)

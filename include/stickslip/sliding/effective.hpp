@@ -39,6 +39,53 @@ struct Loop {
 
 namespace detail {
 
+/// The half cycle up to the largest displacement: the events between which it is.
+struct HalfCycle {
+  std::size_t turn, peak;
+  double displacement;  ///< the largest, D [m]
+  double direction;     ///< sign
+
+  /// The loop of which this is a part.
+  /// @param force           on arrival at the peak, toward negative x [m/s^2]
+  /// @param work, distance  of friction and damper in the half cycle [m^2/s^2], and its length [m]
+  Loop loop(double force, double work, double distance) const {
+    if (!(direction * force > 0))
+      throw std::invalid_argument(
+          "effective period and damping: no force draws the slider back where |x| is largest; it is off the ground");
+    return {displacement, direction * force, 4 * displacement * work / distance};
+  }
+};
+
+/// @param has_spring  whether a spring draws the slider back
+/// @param center      where the spring balances the weight [m]
+inline HalfCycle half_cycle(const Response& response, bool has_spring, double center) {
+  if (!has_spring)
+    throw std::invalid_argument(
+        "effective period and damping: needs a slider on a spring (natural_frequency, period or radius): without one "
+        "no force draws the mass back");
+  if (!(response.time_sliding > 0)) throw std::invalid_argument("effective period and damping: the slider never slips");
+  const std::vector<Event>& events = response.events;
+  const auto x_of = [&](const Event& e) { return e.displacement - center; };
+  double largest = std::abs(response.displacement.front() - center);
+  for (const Event& e : events) largest = std::max(largest, std::abs(x_of(e)));
+  std::size_t peak = 1;
+  const auto turns = [](EventKind kind) {
+    return kind == EventKind::reversal || kind == EventKind::arrest || kind == EventKind::impact;
+  };
+  while (peak < events.size() && !(turns(events[peak].kind) && equal(std::abs(x_of(events[peak])), largest))) ++peak;
+  if (peak >= events.size())
+    throw std::invalid_argument("effective period and damping: |x| is largest, " + shortest(largest) +
+                                " m, where no slip ends: at the start, or at the end of a motion that is not over "
+                                "(settle continues it)");
+
+  // Back to the last reversal from the other direction, or to the start.
+  const double s = x_of(events[peak]) < 0 ? -1 : 1;
+  const auto way = [&](std::size_t k) { return s * (events[k].displacement - events[k - 1].displacement); };
+  std::size_t turn = peak;
+  while (turn > 0 && way(turn) >= 0) --turn;
+  return {turn, peak, largest, s};
+}
+
 /// Sums the distance slid, and the work on friction and damper, between two times.
 class SwingReader final : public TrajectoryReader {
  public:
@@ -90,48 +137,21 @@ class SwingReader final : public TrajectoryReader {
 inline Loop largest_loop(const Trajectory& trajectory) {
   const Mounting& mounting = trajectory.mounting();
   const Response& response = trajectory.response();
-  if (!trajectory.has_spring())
-    throw std::invalid_argument(
-        "effective period and damping: needs a slider on a spring (natural_frequency, period or radius): without one "
-        "no force draws the mass back");
-  if (!(response.time_sliding > 0)) throw std::invalid_argument("effective period and damping: the slider never slips");
   const double downhill = trajectory.downhill();
   const double center = downhill > 0 ? downhill / mounting.spring().under(std::cos(mounting.slope())) : 0;
-  const std::vector<Event>& events = response.events;
-  const auto x_of = [&](const Event& e) { return e.displacement - center; };
-  double largest = std::abs(response.displacement.front() - center);
-  for (const Event& e : events) largest = std::max(largest, std::abs(x_of(e)));
-  std::size_t peak = 1;
-  const auto turns = [](EventKind kind) {
-    return kind == EventKind::reversal || kind == EventKind::arrest || kind == EventKind::impact;
-  };
-  while (peak < events.size() && !(turns(events[peak].kind) && detail::equal(std::abs(x_of(events[peak])), largest)))
-    ++peak;
-  if (peak >= events.size())
-    throw std::invalid_argument("effective period and damping: |x| is largest, " + detail::shortest(largest) +
-                                " m, where no slip ends: at the start, or at the end of a motion that is not over "
-                                "(settle continues it)");
-
-  // Back to the last reversal from the other direction, or to the start.
-  const double s = x_of(events[peak]) < 0 ? -1 : 1;
-  const auto way = [&](std::size_t k) { return s * (events[k].displacement - events[k - 1].displacement); };
-  std::size_t turn = peak;
-  while (turn > 0 && way(turn) >= 0) --turn;
-
-  const double end = events[peak].time;
-  detail::SwingReader swing(trajectory, events[turn].time, end);
-  trajectory.read(swing, end);
+  const detail::HalfCycle half = detail::half_cycle(response, trajectory.has_spring(), center);
+  const Event& peak = response.events[half.peak];
+  detail::SwingReader swing(trajectory, response.events[half.turn].time, peak.time);
+  trajectory.read(swing, peak.time);
 
   State state = swing.last;
-  state.displacement = events[peak].displacement;
-  state.velocity = events[peak].velocity;
+  state.displacement = peak.displacement;
+  state.velocity = peak.velocity;
   const double friction = detail::weigh(
-      swing.weight, trajectory.resist(state, swing.weight, s < 0 ? Direction::backward : Direction::forward));
-  const double force = s * (trajectory.pull(state.displacement, swing.weight) - downhill) + friction;
-  if (!(force > 0))
-    throw std::invalid_argument(
-        "effective period and damping: no force draws the slider back where |x| is largest; it is off the ground");
-  return {largest, force, 4 * largest * swing.work / swing.distance};
+      swing.weight,
+      trajectory.resist(state, swing.weight, half.direction < 0 ? Direction::backward : Direction::forward));
+  const double force = trajectory.pull(state.displacement, swing.weight) - downhill + half.direction * friction;
+  return half.loop(force, swing.work, swing.distance);
 }
 
 /// The same of a slider, or a law alone, under a ground motion.

@@ -21,13 +21,6 @@ struct StructureState {
   PendulumMemory pendulum{};  ///< where the elements of a MultiPendulum are
 };
 
-/// A point of the motion of an interface.
-struct InterfacePoint {
-  double time;          ///< [s]
-  double displacement;  ///< x [m]
-  double force;         ///< as StructureResponse::interface_force [m/s^2]
-};
-
 /// The motion of the floors of a structure. Rows are samples; columns are floors, the lowest first. Peaks are taken
 /// over all time, not only at samples.
 struct Floors {
@@ -51,9 +44,6 @@ struct StructureResponse : Response {
   /// Force of friction, spring and damper between both sides of the interface, per reference mass, at the samples
   /// [m/s^2]; positive where it pulls toward negative x. At a sample at which it jumps, the value after the jump.
   std::vector<double> interface_force;
-  /// Points that draw the loops of force over displacement with straight lines between them: two where the force jumps.
-  /// Empty unless StructureIntegrateOptions::loops.
-  std::vector<InterfacePoint> loops;
   double soil_strain = 0;             ///< effective, of an equivalent-linear FlexibleSlope
   double peak_base_acceleration = 0;  ///< over all time [m/s^2]
   double peak_base_shear = 0;         ///< largest sum of the inertia forces of the structure; unit as Floors::shear
@@ -62,6 +52,7 @@ struct StructureResponse : Response {
   double margin = 0;
   /// With `settle`, whether the interface is known to stick forever: |demand| cannot reach a level again.
   bool settled = false;
+  StructureState initial_state;
   StructureState final_state;
 };
 

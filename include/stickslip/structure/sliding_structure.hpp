@@ -65,7 +65,6 @@ struct StructureIntegrateOptions {
   std::function<void()> progress{};  ///< called about once per second or more often; may throw to stop the work
   double sliding_distance = 0;       ///< before the start [m], finite and at least 0; used by laws with memory
   bool floors = true;                ///< whether to compute `floors`
-  bool loops = false;                ///< whether to keep `loops`
   SurfaceHeat heat{};  ///< of the sliding surface at the start; used by laws that depend on its temperature
 
   /// Those that settle.

@@ -127,6 +127,75 @@ auto shears() {
   };
 }
 
+// Calls `use(system, motion)` without the interpreter lock.
+template <class Use>
+auto with_system(const Self& self, Use&& use) {
+  const auto& motion = self.motion.cast<const GroundMotion&>();
+  if (py::isinstance<FlexibleSlope>(self.system)) {
+    const auto& slope = self.system.cast<const FlexibleSlope&>();
+    const py::gil_scoped_release released;
+    return use(sliding_structure(slope, properties(slope, motion)), motion);
+  }
+  const auto& system = py::isinstance<EquipmentOnFloor>(self.system)
+                           ? static_cast<const SlidingStructure&>(self.system.cast<const EquipmentOnFloor&>())
+                           : self.system.cast<const IsolatedStructure&>();
+  const py::gil_scoped_release released;
+  return use(system, motion);
+}
+
+Loop loop_of(const Self& self) {
+  return with_system(self, [&](const SlidingStructure& system, const GroundMotion& motion) {
+    return largest_loop(system, motion, self.response);
+  });
+}
+
+const InterfacePoint& peak_force_of(Self& self) {
+  if (!self.peak_force)
+    self.peak_force = with_system(self, [&](const SlidingStructure& system, const GroundMotion& motion) {
+      return peak_force(system, motion, self.response);
+    });
+  return *self.peak_force;
+}
+
+// At a time a StructureState, at several a structured array.
+py::object at_times(const Self& self, const py::object& times) {
+  const std::vector<double> t = to_vector_or_number(times, "StructureResponse.at: times", "s");
+  RealMatrix shapes;
+  const std::vector<StructureState> found =
+      with_system(self, [&](const SlidingStructure& system, const GroundMotion& motion) {
+        shapes = system.structure().modes().shapes;
+        return states_at(system, motion, self.response, t);
+      });
+  if (py::array::ensure(times).ndim() == 0) return py::cast(found.front());
+  const auto size = static_cast<py::ssize_t>(t.size()), floors = static_cast<py::ssize_t>(shapes.rows());
+  py::array_t<double> x(size), v(size), y({size, floors});
+  py::array_t<bool> stuck(size);
+  for (py::ssize_t i = 0; i < size; ++i) {
+    const StructureState& state = found[static_cast<std::size_t>(i)];
+    x.mutable_at(i) = state.displacement;
+    v.mutable_at(i) = state.velocity;
+    stuck.mutable_at(i) = state.mode == Mode::stuck;
+    for (py::ssize_t floor = 0; floor < floors; ++floor) {
+      double sum = 0;
+      for (std::ptrdiff_t k = 0; k < shapes.cols(); ++k)
+        sum += shapes(floor, k) * state.modal_displacement[static_cast<std::size_t>(k)];
+      y.mutable_at(i, floor) = sum;
+    }
+  }
+  py::list fields;
+  for (const char* name : {"time", "displacement", "velocity"}) fields.append(py::make_tuple(name, "f8"));
+  fields.append(py::make_tuple("stuck", "?"));
+  if (floors > 0) fields.append(py::make_tuple("floor_displacement", "f8", py::make_tuple(floors)));
+  py::array rows(py::dtype::from_args(fields), size);
+  const auto set = [&](const char* name, const py::object& values) { rows[py::str(name)] = values; };
+  set("time", to_array(t));
+  set("displacement", x);
+  set("velocity", v);
+  set("stuck", stuck);
+  if (floors > 0) set("floor_displacement", y);
+  return rows;
+}
+
 template <auto member>
 auto number() {
   return [](const Self& self) { return self.response.*member; };
@@ -231,6 +300,50 @@ for good, but see `truncated`.)")
 Per unit of the reference mass; positive where it pulls toward negative x. While the interface sticks, friction is what
 balances the other forces.)")
       .def_property_readonly(
+          "peak_force", [](Self& r) { return std::abs(peak_force_of(r).force); }, peak_force_doc)
+      .def_property_readonly(
+          "peak_force_time", [](Self& r) { return peak_force_of(r).time; }, peak_force_time_doc)
+      .def_property_readonly(
+          "effective_period", [](const Self& r) { return loop_of(r).period(); },
+          R"(2 pi / sqrt(k_eff) of the hysteresis loop of the interface with the largest displacement [s].
+
+As `Response.effective_period`: k_eff = F / D, where D is `peak` and F the force of spring and friction of the interface
+there, just before it reverses or stops, per unit of the reference mass. For an isolated building, the period of the
+building, if it were rigid, on isolators of the secant stiffness. The motion is integrated again. ValueError without a
+spring, as for a `FlexibleSlope`; if the interface never slips; if |x| is largest at the start or at the end of an
+unfinished slip.)")
+      .def_property_readonly(
+          "effective_damping", [](const Self& r) { return loop_of(r).damping(); },
+          R"(E_d / (2 pi k_eff D^2) of the same loop, a fraction of critical damping.
+
+As `Response.effective_damping`: E_d is 4 D times the energy per meter that friction and damper of the interface
+dissipated in the swing up to the peak; what the structure dissipates is not in it. ValueError as for
+`effective_period`.)")
+      .def("at", &at_times, py::arg("times"),
+           R"(The motion at any times, also between the samples and while the structure settles.
+
+Parameters
+----------
+times : float or array_like, shape (T,)
+    Times from the start of the motion to the last event of the response [s], in any order.
+
+Returns
+-------
+StructureState or ndarray
+    At one time a `StructureState`, from which `advance` continues. At several a structured array of shape (T,) with the
+    fields time [s], displacement [m] and velocity [m/s] of the interface, stuck, and, if the structure has floors,
+    floor_displacement [m] of shape (T, floors), relative to the base, or to the ground below an `EquipmentOnFloor`. At
+    an impact, the state after it.
+
+Raises
+------
+ValueError
+    A time before the start or after the end.
+
+Notes
+-----
+As exact as `integrate`: the motion is integrated again, with a step that ends at each time.)")
+      .def_property_readonly(
           "floors",
           [](const py::object& self) {
             if (self.cast<const Self&>().response.floors.displacement.cols() == 0)
@@ -315,10 +428,11 @@ Needs matplotlib (`pip install stickslip[plot]`). Takes `figure`, a matplotlib F
            py::arg("title") = py::none(), py::arg("ax") = py::none(), py::arg("time") = py::none(), hysteresis_doc)
       .def(
           "_curve",
-          [](const Self& r) {
-            StructureIntegrateOptions options = r.options;
-            options.loops = true;
-            const std::vector<InterfacePoint> points = integrate_with(r.system, r.motion, options).loops;
+          [](const Self& self) {
+            const std::vector<InterfacePoint> points =
+                with_system(self, [&](const SlidingStructure& system, const GroundMotion& motion) {
+                  return interface_loops(system, motion, self.response);
+                });
             py::dict layout;
             layout["names"] = py::make_tuple("time", "displacement", "force");
             layout["formats"] = py::make_tuple("f8", "f8", "f8");

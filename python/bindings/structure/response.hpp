@@ -5,6 +5,7 @@
 
 #include "bindings.hpp"
 #include "stickslip/structure/sliding_structure.hpp"
+#include "stickslip/structure/trajectory.hpp"
 
 namespace stickslip::python {
 
@@ -14,6 +15,7 @@ struct StructureResponseWithInputs {
   py::object system, motion;
   StructureIntegrateOptions options;
   py::object time{}, events{};
+  std::optional<InterfacePoint> peak_force{};  // found on first access
 
   py::tuple inputs() const {
     return py::make_tuple(system, motion, options.displacement, options.velocity, options.settle,

@@ -60,8 +60,8 @@ def plot_hysteresis(
 
     The force is friction + damper + spring over the weight: per unit mass, in g. Of a structure it
     is that of its sliding interface, such as an isolation layer, over the weight of the reference
-    mass. If a slider has a spring, the picture shows the secant of the loop with the largest
-    displacement, with `Response.effective_period` and `effective_damping`. In the loops of a
+    mass. If there is a spring, the picture shows the secant of the loop with the largest
+    displacement, with `effective_period` and `effective_damping` of the response. In the loops of a
     `MultiPendulum`, numbers beside the lines name the surfaces that slide, from bottom to top; each
     set of them is named once, where it slides all the way from one sample to the next.
 
@@ -108,7 +108,7 @@ def plot_hysteresis(
         axes.set_xlabel(f"relative displacement [{unit}]")
         axes.set_ylabel("force per unit mass [g]")
         put_title(axes, response.motion, title, _what_slides(response))
-        if isinstance(response, Response) and (found := _secant(response)):
+        if found := _secant(response):
             period, damping = found
             reach = np.array([-response.peak, response.peak])
             secant = (2 * np.pi / period) ** 2 * reach / STANDARD_GRAVITY
@@ -126,7 +126,7 @@ def _what_slides(response: Response | StructureResponse) -> str:
     return describe_system(response.system)
 
 
-def _secant(response: Response) -> tuple[float, float] | None:
+def _secant(response: Response | StructureResponse) -> tuple[float, float] | None:
     """Period [s] and damping ratio of the largest loop; None without one."""
     try:
         return response.effective_period, response.effective_damping
