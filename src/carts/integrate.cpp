@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/samples.hpp"
+#include "base/states_by_steps.hpp"
 #include "carts/model.hpp"
 #include "carts/recorder.hpp"
 #include "carts/run.hpp"
@@ -232,6 +233,29 @@ void advance(const Cart& cart, const CartGround& segment, CartState& state) {
                                    standard_gravity + segment.vertical_start, standard_gravity + segment.vertical_end};
   detail::move(work, ground, moved, none);
   state = std::move(moved);
+}
+
+std::vector<CartState> states_at(const Cart& cart, const GroundMotion& motion, const CartResponse& response,
+                                 std::span<const double> times) {
+  const detail::CartModel model(cart);
+  detail::CartWorkspace work(model);
+  detail::NoCartSink none;
+  CartState start = model.start();
+  start.yaw = response.yaw.front();
+  start.velocity = response.velocity.front();
+  start.yaw_rate = response.yaw_rate.front();
+  if (norm(start.velocity) > 0 || !detail::equal(start.yaw_rate, 0)) start.mode = CartMode::moving;
+  const auto step = [&](CartState& state, double duration, std::size_t i, double from, double to) {
+    detail::CartSegment part{duration, {}, {}, standard_gravity, standard_gravity};
+    if (i < motion.segments()) {
+      const detail::CartSegment whole = detail::cart_segment(motion, i);
+      const auto at = [](auto first, auto last, double share) { return first + share * (last - first); };
+      part = {duration, at(whole.start, whole.end, from), at(whole.start, whole.end, to),
+              at(whole.heavy_start, whole.heavy_end, from), at(whole.heavy_start, whole.heavy_end, to)};
+    }
+    detail::move(work, part, state, none);
+  };
+  return detail::states_by_steps(motion, times, start, response.events.back().time, response.state, step);
 }
 
 }  // namespace stickslip

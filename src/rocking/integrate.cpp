@@ -338,4 +338,9 @@ void advance(const SlenderBlock& block, const RockingGround& segment, RockingSta
   state = moved;
 }
 
+std::vector<RockingState> states_at(const SlenderBlock& block, const GroundMotion& motion,
+                                    const RockingResponse& response, std::span<const double> times) {
+  return detail::states_by_advance(block, motion, response, times);
+}
+
 }  // namespace stickslip

@@ -275,4 +275,9 @@ void advance(const RockingBlock& block, const RockingGround& segment, RockingSta
   state = moved;
 }
 
+std::vector<RockingState> states_at(const RockingBlock& block, const GroundMotion& motion,
+                                    const RockingResponse& response, std::span<const double> times) {
+  return detail::states_by_advance(block, motion, response, times);
+}
+
 }  // namespace stickslip

@@ -6,8 +6,11 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <vector>
 
 #include "base/samples.hpp"
+#include "base/states_by_steps.hpp"
 #include "rocking/leg.hpp"
 #include "stickslip/base/equal.hpp"
 #include "stickslip/error.hpp"
@@ -78,6 +81,25 @@ void keep_until(double end, const GroundMotion& motion, RockingState sampled, co
     if (!(motion.time(i + 1) < end)) sampled = at_end;
     keep(sampled);
   }
+}
+
+/// `states_at` of both blocks.
+template <class Block>
+std::vector<RockingState> states_by_advance(const Block& block, const GroundMotion& motion,
+                                            const RockingResponse& response, std::span<const double> times) {
+  const auto step = [&](RockingState& state, double duration, std::size_t i, double from, double to) {
+    RockingGround ground{duration, 0, 0};
+    if (i < motion.segments()) {
+      const RockingSegment whole = segment_of(motion, i);
+      const auto at = [](double start, double end, double part) { return start + part * (end - start); };
+      const double up_start = whole.heavy_start - standard_gravity, up_end = whole.heavy_end - standard_gravity;
+      ground = {duration, at(whole.n_start, whole.n_end, from), at(whole.n_start, whole.n_end, to),
+                at(up_start, up_end, from), at(up_start, up_end, to)};
+    }
+    advance(block, ground, state);
+  };
+  return states_by_steps(motion, times, RockingState::at(response.rotation.front(), response.rate.front()),
+                         response.events.back().time, response.state, step);
 }
 
 /// Adds a rotation to the peaks.

@@ -341,6 +341,42 @@ TEST_CASE("A user's loop over segments is the motion", "[carts]") {
   }
 }
 
+TEST_CASE("States at any time are those of a motion with more samples", "[carts]") {
+  const GroundMotion coarse = shaking(0.7, 31, 0.8);
+  constexpr std::size_t parts = 4;
+  std::vector<double> along, across, up;
+  for (std::size_t i = 0; i < coarse.segments(); ++i)
+    for (std::size_t k = 0; k < parts; ++k) {
+      const double part = static_cast<double>(k) / parts;
+      along.push_back(std::lerp(coarse.acceleration()[i], coarse.acceleration()[i + 1], part));
+      across.push_back(std::lerp(coarse.transverse()[i], coarse.transverse()[i + 1], part));
+      up.push_back(std::lerp(coarse.vertical()[i], coarse.vertical()[i + 1], part));
+    }
+  along.push_back(coarse.acceleration().back());
+  across.push_back(coarse.transverse().back());
+  up.push_back(coarse.vertical().back());
+  const GroundMotion fine = GroundMotion(along, 0.1 / parts).with_components(across, up);
+  CartOptions options;
+  options.yaw = 0.3;
+  options.velocity = {0.1, -0.2};
+  options.yaw_rate = 0.5;
+  std::vector<double> times;
+  for (std::size_t i = 0; i < fine.samples(); ++i) times.push_back(fine.time(i));
+  for (const Cart& cart : {four_casters({0.3, 2.0, -2.5, -0.7}, 0.01), four_feet({0.1, 0.1, 0.12, 0.09})}) {
+    const CartResponse few = integrate(cart, coarse, options), many = integrate(cart, fine, options);
+    const std::vector<CartState> states = states_at(cart, coarse, few, times);
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      CHECK(norm(states[i].displacement - many.displacement[i]) < 1e-9);
+      CHECK(std::abs(states[i].yaw - many.yaw[i]) < 1e-9);
+    }
+    options.settle = true;
+    const CartResponse whole = integrate(cart, coarse, options);
+    const double ends[] = {whole.events.back().time};
+    CHECK(states_at(cart, coarse, whole, ends)[0].mode == CartMode::rest);
+    options.settle = false;
+  }
+}
+
 TEST_CASE("Peaks, reach and clearance are those of a fine sampling", "[carts]") {
   const Cart cart = four_casters({0.3, 2.0, -2.5, -0.7}, 0.01);
   const GroundMotion motion = shaking(1.2, 41);

@@ -170,6 +170,18 @@ def test_advance_goes_where_integrate_goes():
         ss.advance(CART, ss.CartState(headings=[0.0]), 0.1, (0, 0))
 
 
+def test_the_motion_at_any_times():
+    rows = PLAIN.at(PLAIN.time)
+    for name in ("displacement", "velocity", "yaw", "yaw_rate"):
+        np.testing.assert_allclose(rows[name], getattr(PLAIN, name), rtol=0, atol=1e-9)
+    fine = ss.integrate(CART, QUAKE.resampled(0.025))
+    rows = PLAIN.at(fine.time)
+    np.testing.assert_allclose(rows["displacement"], fine.displacement, rtol=0, atol=1e-9)
+    assert np.allclose(PLAIN.at(1.02).headings, ss.integrate(CART, QUAKE).at(1.02).headings)
+    with pytest.raises(ValueError, match="the start and the end of the response"):
+        PLAIN.at([-1.0])
+
+
 def test_a_locked_caster_is_a_foot_behind_its_pivot():
     wheel = {"at": (0.3, 0.2), "heading": 0.5, "mu": 0.5, "trail": 0.04}
     both = ss.SwivelCaster(**wheel, lock="both")

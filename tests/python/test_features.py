@@ -174,6 +174,12 @@ class Cells:
     def margin(self):
         assert self.response.margin >= 0
 
+    def at(self):
+        r = self.response
+        scale = abs(r.displacement).max()
+        there = r.at(r.time)["displacement"]
+        assert np.allclose(there, r.displacement, rtol=0, atol=1e-9 * scale)
+
     def forces(self):
         r = self.response
         assert np.isfinite(r.force).all()
@@ -279,6 +285,10 @@ class RockingCells(SystemCells):
     def ensemble_sensitivity(self):
         ss.ensemble_sensitivity(self.slider, [self.motion], "scale", members=2, seed=1)
 
+    def at(self):
+        r = self.response
+        assert np.allclose(r.at(r.time)["rotation"], r.rotation, rtol=0, atol=1e-9)
+
     def forces(self):
         assert self.response.force
 
@@ -316,6 +326,10 @@ class CartCells(RockingCells):
     def run_ensemble(self):
         e = ss.run_ensemble(self.slider, [self.motion], members=2, seed=1)
         assert (e.peak_outline == self.response.peak_outline).all()
+
+    def at(self):
+        r = self.response
+        assert np.allclose(r.at(r.time)["displacement"], r.displacement, rtol=0, atol=1e-9)
 
     def tables(self):
         r = self.response

@@ -149,6 +149,19 @@ def test_advance_goes_where_integrate_goes():
         ss.RockingState(2)
 
 
+def test_the_motion_at_any_times():
+    r = ss.integrate(BLOCK, QUAKE, settle=True)
+    rows = r.at(r.time[-2::-1])[::-1]  # the last sample is that after the rest
+    assert np.array_equal(rows["time"], r.time[:-1])
+    np.testing.assert_allclose(rows["rotation"], r.rotation[:-1], rtol=0, atol=1e-12)
+    np.testing.assert_allclose(rows["rate"], r.rate[:-1], rtol=0, atol=1e-11)
+    fine = ss.integrate(BLOCK, QUAKE.resampled(0.01))
+    np.testing.assert_allclose(r.at(fine.time)["rotation"], fine.rotation, rtol=0, atol=1e-11)
+    assert r.at(r.events["time"][-1]) == r.state
+    with pytest.raises(ValueError, match="the start and the end of the response"):
+        r.at(1e6)
+
+
 def test_an_overturned_block_says_so():
     r = ss.integrate(BLOCK, pulse(4), settle=True)
     assert r.overturned == "left"  # after one impact

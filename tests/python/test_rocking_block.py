@@ -162,6 +162,15 @@ def test_advance_goes_where_integrate_goes():
     assert "in flight" in repr(flies)
 
 
+def test_the_motion_at_any_times():
+    r = ss.integrate(BLOCK, QUAKE)
+    rows = r.at(r.time)
+    np.testing.assert_allclose(rows["rotation"], r.rotation, rtol=0, atol=1e-12)
+    fine = ss.integrate(BLOCK, QUAKE.resampled(0.01))
+    np.testing.assert_allclose(r.at(fine.time)["rotation"], fine.rotation, rtol=0, atol=1e-11)
+    assert isinstance(r.at(0.55), ss.RockingState)
+
+
 def test_a_restitution_that_slip_does_not_allow_is_counted():
     block = ss.RockingBlock(width=0.6, height=2, mu=0.2, restitution=0.98)
     r = ss.integrate(block, ss.GroundMotion([0, 0], dt=2), rotation=0.2, settle=True)

@@ -340,6 +340,42 @@ TEST_CASE("rigid block: exactly one case of an impact is consistent, and none cr
 
 // Time stepping without events (Moreau): positions at midpoints, and velocities after impulses that hold 0 <= v_n, 0 <= p_n,
 // v_n p_n = 0 and |p_t| <= mu p_n at corners that touch the ground. First order.
+TEST_CASE("rigid block: states at any time are those of a motion with more samples") {
+  constexpr int parts = 8;
+  const auto motion = [](int divided) {
+    std::vector<double> n, up;
+    for (int m = 0; m <= 60 * divided; ++m) {
+      const auto at = [](int k) { return 1.3 * (2 * std::sin(0.7 * k) + 1.3 * std::cos(1.9 * k + 0.4)); };
+      const int k = m / divided;
+      n.push_back(std::lerp(at(k), at(k + 1), static_cast<double>(m % divided) / divided));
+      up.push_back(0.5 + 0.01 * m / divided);
+    }
+    return GroundMotion(n, 0.1 / divided).with_components({}, up);
+  };
+  const RockingBlock block({.width = 0.5, .height = 2, .mu = 0.5});
+  const GroundMotion coarse = motion(1), fine = motion(parts);
+  RockingOptions options;
+  options.rotation = 0.05;
+  const RockingResponse few = integrate(block, coarse, options), many = integrate(block, fine, options);
+  REQUIRE(many.impacts > 3);
+  std::vector<double> times;
+  for (std::size_t i = 0; i < fine.samples(); ++i) times.push_back(fine.time(fine.samples() - 1 - i));
+  const std::vector<RockingState> states = states_at(block, coarse, few, times);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    CHECK(std::abs(states[times.size() - 1 - i].rotation - many.rotation[i]) < 1e-12);
+    CHECK(std::abs(states[times.size() - 1 - i].rate - many.rate[i]) < 1e-11);
+  }
+  options.settle = true;
+  const RockingResponse whole = integrate(block, coarse, options);
+  const double ends = whole.events.back().time, after[] = {6.05, ends, 0};
+  REQUIRE(ends > 6.05);
+  const std::vector<RockingState> then = states_at(block, coarse, whole, after);
+  CHECK(then[0].mode != RockingMode::rest);
+  CHECK(then[1].mode == whole.state.mode);
+  CHECK(std::abs(then[2].rotation - 0.05) <= 0);
+  CHECK_THROWS_AS(states_at(block, coarse, few, after), std::invalid_argument);
+}
+
 TEST_CASE("rigid block: steps in time agree") {
   struct Case {
     double half, mu, factor, vertical;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "stickslip/carts/cart.hpp"
@@ -49,5 +50,15 @@ struct CartGround {
 /// @throws std::invalid_argument  a number that is not finite; other numbers of headings or lines than the cart has
 /// @throws ConvergenceError       events faster than the time can be resolved
 void advance(const Cart& cart, const CartGround& segment, CartState& state);
+
+/// The states of a cart at any times of a response, also between its samples and while it settles.
+///
+/// @param response  the result of `integrate` for cart and motion
+/// @param times     in any order, from the start of the motion to the end of the response (its last event) [s]
+/// @return a state for each time, in their order; at an event, that after it
+/// @throws std::invalid_argument  a time before the start or after the end
+/// As exact as `integrate`. Cost: a step for each segment and each time.
+std::vector<CartState> states_at(const Cart& cart, const GroundMotion& motion, const CartResponse& response,
+                                 std::span<const double> times);
 
 }  // namespace stickslip

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <span>
+#include <vector>
 
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/rocking/response.hpp"
@@ -61,5 +63,17 @@ void advance(const SlenderBlock& block, const RockingGround& segment, RockingSta
 /// @throws std::invalid_argument  a number that is not finite
 /// @throws ConvergenceError       as `integrate`
 void advance(const RockingBlock& block, const RockingGround& segment, RockingState& state);
+
+/// The states of a block at any times of a response, also between its samples and while it settles.
+///
+/// @param response  the result of `integrate` for block and motion
+/// @param times     in any order, from the start of the motion to the end of the response (its last event) [s]
+/// @return a state for each time, in their order; at an event, that after it
+/// @throws std::invalid_argument  a time before the start or after the end
+/// As exact as `integrate`. Cost: a step for each segment and each time.
+std::vector<RockingState> states_at(const SlenderBlock& block, const GroundMotion& motion,
+                                    const RockingResponse& response, std::span<const double> times);
+std::vector<RockingState> states_at(const RockingBlock& block, const GroundMotion& motion,
+                                    const RockingResponse& response, std::span<const double> times);
 
 }  // namespace stickslip

@@ -145,6 +145,37 @@ py::tuple histories_cart(const CartAsGiven& cart, const py::object& motion) {
   return py::make_tuple(rows(r.displacement, r.yaw), rows(r.velocity, r.yaw_rate));
 }
 
+// At a time a CartState, at several a structured array.
+py::object at_times(const Self& self, const py::object& times) {
+  const std::vector<double> t = to_vector_or_number(times, "CartResponse.at: times", "s");
+  const Cart& cart = its_cart(self).cart();
+  const GroundMotion& motion = motion_of(self);
+  const std::vector<CartState> found = [&] {
+    const py::gil_scoped_release released;
+    return states_at(cart, motion, self.response, t);
+  }();
+  if (py::array::ensure(times).ndim() == 0) return py::cast(found.front());
+  struct Row {
+    double time;
+    Vector2 displacement, velocity;
+    double yaw, yaw_rate;
+    bool at_rest;
+  };
+  py::dict layout;
+  layout["names"] = py::make_tuple("time", "displacement", "velocity", "yaw", "yaw_rate", "at_rest");
+  layout["formats"] = py::make_tuple("f8", "(2,)f8", "(2,)f8", "f8", "f8", "?");
+  layout["offsets"] = py::make_tuple(offsetof(Row, time), offsetof(Row, displacement), offsetof(Row, velocity),
+                                     offsetof(Row, yaw), offsetof(Row, yaw_rate), offsetof(Row, at_rest));
+  layout["itemsize"] = sizeof(Row);
+  py::array rows(py::dtype::from_args(layout), static_cast<py::ssize_t>(found.size()));
+  auto* row = static_cast<Row*>(rows.mutable_data());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const CartState& s = found[i];
+    *row++ = {t[i], s.displacement, s.velocity, s.yaw, s.yaw_rate, s.mode == CartMode::rest};
+  }
+  return rows;
+}
+
 std::optional<double> unless_nan(double value) { return std::isnan(value) ? std::nullopt : std::optional(value); }
 
 }  // namespace
@@ -225,6 +256,30 @@ last step of the motion up to the first at or after rest; but see `truncated`.)"
       .def_property_readonly("yaw", history<&CartResponse::yaw>(),
                              "phi at `time` [rad], shape (N,), positive from the axis toward the transverse direction.")
       .def_property_readonly("yaw_rate", history<&CartResponse::yaw_rate>(), "phi' at `time` [rad/s], shape (N,).")
+      .def("at", &at_times, py::arg("times"),
+           R"(The motion at any times, also between the samples and in the time until the cart rests.
+
+Parameters
+----------
+times : float or array_like, shape (T,)
+    Times from the start of the motion to the last event of the response [s], in any order.
+
+Returns
+-------
+CartState or ndarray
+    At one time a `CartState`, which has the headings, too. At several a structured array of shape (T,) with the fields
+    time [s], displacement [m] and velocity [m/s] of the center of mass, both of shape (T, 2), yaw [rad], yaw_rate [rad/s]
+    and at_rest.
+
+Raises
+------
+ValueError
+    A time before the start or after the end.
+
+Notes
+-----
+As exact as `integrate`: the motion is advanced again from sample to sample, with a step that ends at each time. Round-off
+grows as `condition` says.)")
       .def_property_readonly("heading", &heading_of,
                              "Headings of the casters relative to the cart at `time` [rad], shape (casters, N).")
       .def_property_readonly(

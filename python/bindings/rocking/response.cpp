@@ -177,6 +177,35 @@ py::tuple histories_block(const Block& block, const py::object& motion) {
   return py::make_tuple(array_of(std::move(response.rotation)), array_of(std::move(response.rate)));
 }
 
+// At a time a RockingState, at several a structured array.
+py::object at_times(const Self& self, const py::object& times) {
+  const std::vector<double> t = to_vector_or_number(times, "RockingResponse.at: times", "s");
+  const GroundMotion& motion = motion_of(self);
+  const auto of = [&](const auto& block) {
+    const py::gil_scoped_release released;
+    return states_at(block, motion, self.response, t);
+  };
+  const std::vector<RockingState> found =
+      is_rigid(self) ? of(self.block.cast<const RockingBlock&>()) : of(self.block.cast<const SlenderBlock&>());
+  if (py::array::ensure(times).ndim() == 0) return py::cast(found.front());
+  struct Row {
+    double time, rotation, rate;
+    bool at_rest, in_flight;
+  };
+  py::dict layout;
+  layout["names"] = py::make_tuple("time", "rotation", "rate", "at_rest", "in_flight");
+  layout["formats"] = py::make_tuple("f8", "f8", "f8", "?", "?");
+  layout["offsets"] = py::make_tuple(offsetof(Row, time), offsetof(Row, rotation), offsetof(Row, rate),
+                                     offsetof(Row, at_rest), offsetof(Row, in_flight));
+  layout["itemsize"] = sizeof(Row);
+  py::array rows(py::dtype::from_args(layout), static_cast<py::ssize_t>(found.size()));
+  auto* row = static_cast<Row*>(rows.mutable_data());
+  for (std::size_t i = 0; i < found.size(); ++i)
+    *row++ = {t[i], found[i].rotation, found[i].rate, found[i].mode == RockingMode::rest,
+              found[i].mode == RockingMode::flight};
+  return rows;
+}
+
 auto picture(const char* function) {
   return [=](const py::object& self, const py::object& figure, const py::object& title) {
     return py::module_::import("stickslip.plotting").attr(function)(self, figure, title);
@@ -269,6 +298,29 @@ Of a `RockingBlock`; ValueError for a `SlenderBlock`, which has no height.)")
       .def_property_readonly(
           "gap", history_or_zeros<&RockingResponse::gap>(),
           "Height of the lower corner above the ground at `time` [m], shape (N,); 0 except in flight.")
+      .def("at", &at_times, py::arg("times"),
+           R"(The motion at any times, also between the samples and in the time until the block rests.
+
+Parameters
+----------
+times : float or array_like, shape (T,)
+    Times from the start of the motion to the last event of the response [s], in any order.
+
+Returns
+-------
+RockingState or ndarray
+    At one time a `RockingState`. At several a structured array of shape (T,) with the fields time [s], rotation [rad],
+    rate [rad/s], at_rest and in_flight. At an impact, the state after it.
+
+Raises
+------
+ValueError
+    A time before the start or after the end.
+
+Notes
+-----
+As exact as `integrate`: the motion is advanced again from sample to sample, with a step that ends at each time. Round-off
+grows as `condition` says.)")
       .def_property_readonly("residual", number<&RockingResponse::residual>(),
                              "Displacement of the base at the end [m].")
       .def_property_readonly("sliding_distance", number<&RockingResponse::sliding_distance>(),
