@@ -384,9 +384,10 @@ inline Numbers to_numbers(const py::object& given, const std::string& name, cons
                                     "; fill the gaps first");
     }
   }
-  const py::array array = is_plain(values) && py::isinstance<py::array>(values)
-                              ? py::reinterpret_borrow<py::array>(values)
-                              : py::array(py::module_::import("numpy").attr("asarray")(values));  // its errors say what is wrong
+  const py::array array =
+      is_plain(values) && py::isinstance<py::array>(values)
+          ? py::reinterpret_borrow<py::array>(values)
+          : py::array(py::module_::import("numpy").attr("asarray")(values));  // its errors say what is wrong
   if (array.dtype().kind() == 'O') return values_of(array, name);
   if (std::string_view("biuf").find(array.dtype().kind()) == std::string_view::npos)
     throw std::invalid_argument(name + " must hold real numbers, got " + py::str(array.dtype()).cast<std::string>());
