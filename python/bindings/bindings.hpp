@@ -39,9 +39,23 @@ using AnyStaticKinetic = decltype(any_of(StaticKineticLaws()));
 }  // namespace stickslip::python
 
 // These variants are classes in Python, not converted as by pybind11/stl.h.
-PYBIND11_MAKE_OPAQUE(stickslip::AnySlider)
 PYBIND11_MAKE_OPAQUE(stickslip::AnyPlanarSlider)
 PYBIND11_MAKE_OPAQUE(stickslip::python::AnyStaticKinetic)
+
+namespace pybind11::detail {
+
+/// A law where a slider is expected is the slider of that law alone. It is found at the first attempt: an implicit
+/// conversion would come after all overloads have been tried without one.
+template <>
+class type_caster<stickslip::AnySlider> : public type_caster_base<stickslip::AnySlider> {
+ public:
+  bool load(handle source, bool convert);
+
+ private:
+  std::optional<stickslip::AnySlider> made_;
+};
+
+}  // namespace pybind11::detail
 
 namespace stickslip::python {
 
@@ -185,26 +199,13 @@ inline std::optional<AnySlider> slider_of_law(const py::handle& object) {
 
 }  // namespace stickslip::python
 
-namespace pybind11::detail {
-
-/// A law where a slider is expected is the slider of that law alone. It is found at the first attempt: an implicit
-/// conversion would come after all overloads have been tried without one.
-template <>
-class type_caster<stickslip::AnySlider> : public type_caster_base<stickslip::AnySlider> {
- public:
-  bool load(handle source, bool convert) {
-    if (!isinstance<stickslip::python::AnyLaw>(source))
-      return type_caster_base<stickslip::AnySlider>::load(source, convert);
-    made_ = stickslip::python::slider_of_law(source);
-    value = made_ ? &*made_ : nullptr;
-    return made_.has_value();
-  }
-
- private:
-  std::optional<stickslip::AnySlider> made_;
-};
-
-}  // namespace pybind11::detail
+inline bool pybind11::detail::type_caster<stickslip::AnySlider>::load(handle source, bool convert) {
+  if (!isinstance<stickslip::python::AnyLaw>(source))
+    return type_caster_base<stickslip::AnySlider>::load(source, convert);
+  made_ = stickslip::python::slider_of_law(source);
+  value = made_ ? &*made_ : nullptr;
+  return made_.has_value();
+}
 
 namespace stickslip::python {
 
