@@ -159,6 +159,7 @@ class VariationalMotion final : public Sink {
     begin_piece(pieces_.segment(segment_), ground(segment_));
     ++segment_;
   }
+  void pass(std::size_t segments) noexcept { segment_ += segments; }
   /// A segment after the motion.
   void begin_still(double duration) { begin_piece(load_segment(Segment{duration, 0, 0}, slider_.slope()), {}); }
 

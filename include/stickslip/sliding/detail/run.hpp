@@ -95,7 +95,8 @@ class LoadPieces {
   Slope slope_;
 };
 
-/// The segments of a ground motion, whose times a sink receives and at whose samples histories are kept.
+/// The segments of a ground motion, whose times a sink receives and at whose samples histories are kept. Segments in
+/// which a slider is certain to rest are passed; a sink with `pass(count)` is told how many.
 /// @tparam Pieces  of the motion: GroundMotion::Pieces or LoadPieces
 template <class Pieces, class AnySink, class AnySegment = decltype(std::declval<const Pieces&>().segment(0))>
 class SampledSegments final : public Segments<AnySegment> {
@@ -140,6 +141,7 @@ class SampledSegments final : public Segments<AnySegment> {
     while (i < until && resting.holds(pieces.segment(i))) ++i;
     if (i == i_) return;
     histories_.keep(i_ + 1, i + 1, now, engine_);
+    if constexpr (requires { sink_.pass(i - i_); }) sink_.pass(i - i_);
     i_ = i;
     end_ = pieces.time(i);
   }
