@@ -26,9 +26,15 @@ class Resting {
   bool known() const noexcept { return !engine_.law().heated; }
 
   /// A rest begins.
+  /// @tparam Place  a state, or a view of one
   template <class Place>
   void begin(const Place& now) {
-    if (!engine_.law().constant) ask(State(now));
+    if (!engine_.law().constant) {
+      if constexpr (requires { now.state(); })
+        ask(now.state());
+      else
+        ask(State(now));
+    }
     place_ = now.displacement;
     const Bounds bounds(engine_.mounting().stops, engine_.mounting().one_way);
     forward_ = bounds.bound(Direction::forward, place_, holds_forward_);

@@ -96,7 +96,7 @@ class LoadPieces {
 };
 
 /// The segments of a ground motion, whose times a sink receives and at whose samples histories are kept. Segments in
-/// which a slider is certain to rest are passed; a sink with `pass(count)` is told how many.
+/// which a slider is certain to rest are passed; a sink with `pass(count)` receives their number.
 /// @tparam Pieces  of the motion: GroundMotion::Pieces or LoadPieces
 template <class Pieces, class AnySink, class AnySegment = decltype(std::declval<const Pieces&>().segment(0))>
 class SampledSegments final : public Segments<AnySegment> {
