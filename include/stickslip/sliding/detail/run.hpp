@@ -39,8 +39,8 @@ struct HistorySpans : HistorySpansOf<double> {
   /// The same of the samples from `first` to the one before `last`, at rest on the ground.
   template <class Place>
   void keep(std::size_t first, std::size_t last, const Place& state, const Engine& engine) const {
-    std::ranges::fill(displacement.subspan(first, last - first), state.displacement);
-    std::ranges::fill(velocity.subspan(first, last - first), 0.0);
+    std::fill_n(displacement.begin() + static_cast<std::ptrdiff_t>(first), last - first, state.displacement);
+    std::fill_n(velocity.begin() + static_cast<std::ptrdiff_t>(first), last - first, 0.0);
     if (!gap.empty() || !temperature.empty()) [[unlikely]]
       for (std::size_t i = first; i < last; ++i) keep_rarer(i, StateView(state), engine);
   }
