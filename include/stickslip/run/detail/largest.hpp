@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stickslip/base/requirements.hpp"
+
 namespace stickslip::detail {
 
 /// Looks for the largest value of a function between two places, between which it has one maximum. The function keeps
