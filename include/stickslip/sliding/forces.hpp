@@ -11,6 +11,7 @@
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/run/detail/largest.hpp"
 #include "stickslip/sliding/detail/load.hpp"
+#include "stickslip/sliding/detail/recall.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/sliding/trajectory.hpp"
 #include "stickslip/state.hpp"
@@ -42,7 +43,12 @@ namespace detail {
 /// Reads the forces at the samples of a response.
 class ForcesReader final : public TrajectoryReader {
  public:
-  explicit ForcesReader(const Trajectory& trajectory) : trajectory_(trajectory) {
+  explicit ForcesReader(const Trajectory& trajectory)
+      : trajectory_(trajectory),
+        constant_(trajectory.has_constant_level()),
+        level_{trajectory.resist(State(), 1, Direction::forward), trajectory.resist(State(), 1, Direction::backward)},
+        end_of_motion_(trajectory.time(trajectory.samples() - 1)),
+        time_(trajectory.time(0)) {
     const std::size_t samples = trajectory.response().displacement.size();
     for (auto* values : {&forces.friction, &forces.damper, &forces.spring, &forces.normal}) values->resize(samples);
     forces.stuck.resize(samples);
@@ -51,14 +57,13 @@ class ForcesReader final : public TrajectoryReader {
 
   /// A sample has the forces of the arc that begins there, the last one of the motion those of the arc that ends there.
   void arc(const Arc& arc) override {
-    const double end_of_motion = trajectory_.time(trajectory_.samples() - 1);
     const auto ends_here = [&](double time) {
-      return equal(time, arc.end) && (equal(time, end_of_motion) || next_ + 1 == forces.stuck.size());
+      return equal(time, arc.end) && (equal(time, end_of_motion_) || next_ + 1 == forces.stuck.size());
     };
-    for (double time; next_ < forces.stuck.size(); ++next_) {
-      time = trajectory_.time(next_);
-      if (!(time < arc.end || ends_here(time))) return;
-      keep(arc, time < arc.end ? std::max(time - arc.begin, 0.0) : arc.duration);
+    while (next_ < forces.stuck.size()) {
+      if (!(time_ < arc.end || ends_here(time_))) return;
+      keep(arc, time_ < arc.end ? std::max(time_ - arc.begin, 0.0) : arc.duration);
+      time_ = trajectory_.time(++next_);
     }
   }
 
@@ -79,18 +84,23 @@ class ForcesReader final : public TrajectoryReader {
     } else {
       const Direction direction = direction_of(arc.start.mode);
       const auto resists = [&] {
-        if (trajectory_.has_constant_level()) return trajectory_.resist(arc.start, weight, direction);
-        State there = arc.at(t);
-        there.displacement = x;
-        there.velocity = v;
-        return trajectory_.resist(there, weight, direction);
+        if (constant_) return direction == Direction::forward ? level_[0] : level_[1];
+        if (trajectory_.has_memory()) there_ = arc.at(t);
+        there_.displacement = x;
+        there_.velocity = v;
+        there_.mode = arc.start.mode;
+        return trajectory_.resist(there_, weight, direction);
       };
       forces.friction[i] = sign(direction) * weigh(weight, resists()) + 0.0;
     }
   }
 
   const Trajectory& trajectory_;
+  bool constant_;
+  double level_[2];              // if it is constant, forward and backward [m/s^2]
+  double end_of_motion_, time_;  // of the next sample [s]
   std::size_t next_ = 0;
+  State there_;
 };
 
 }  // namespace detail
@@ -107,7 +117,7 @@ class ForcesReader final : public TrajectoryReader {
 inline Forces forces(const Trajectory& trajectory) {
   detail::ForcesReader reader(trajectory);
   const double last_sample = trajectory.time(reader.forces.stuck.size() - 1);
-  trajectory.read(reader, std::max(trajectory.end(), last_sample));
+  detail::read_ends(trajectory, reader, std::max(trajectory.end(), last_sample));
   return std::move(reader.forces);
 }
 
@@ -128,20 +138,26 @@ namespace detail {
 /// Reads the largest sum of the forces, p - x''.
 class LargestForceReader final : public TrajectoryReader {
  public:
-  explicit LargestForceReader(const Trajectory& trajectory) : turns_(4 * std::sqrt(trajectory.mounting().stiffness())) {
+  explicit LargestForceReader(const Trajectory& trajectory)
+      : trajectory_(trajectory), turns_(4 * std::sqrt(trajectory.mounting().stiffness())) {
+    const Mounting& on = trajectory.mounting();
+    at_ends = trajectory.has_constant_level() && !(on.stiffness() > 0) && !(on.damping > 0);
     largest.time = trajectory.begin();
   }
 
   // At rest the sum is the load, which is monotonic. In a slip it is smooth, and turns no faster than its spring.
   void arc(const Arc& arc) override {
-    const auto sum = [&](double t) {
-      const double force = std::abs(arc.load(t).load - arc.acceleration(t));
+    const auto keep = [&](double t, double force) {
       if (force > (1 + 1e-13) * largest.force) largest = {force, t < arc.duration ? arc.begin + t : arc.end};
       return force;
     };
+    const auto sum = [&](double t) { return keep(t, std::abs(arc.load(t).load - arc.acceleration(t))); };
     if (arc.rests()) {
       sum(0);
       sum(arc.duration);
+    } else if (at_ends) {
+      const double level = trajectory_.resist(arc.start, 1, direction_of(arc.start.mode));
+      for (const double t : {0.0, arc.duration}) keep(t, weigh(arc.weight(t), level));
     } else {
       const double parts = std::clamp(turns_ * arc.duration, 4.0, 4096.0);
       look_for_largest(arc.duration, static_cast<int>(parts), largest.force, sum);
@@ -149,8 +165,10 @@ class LargestForceReader final : public TrajectoryReader {
   }
 
   LargestForce largest;
+  bool at_ends;  // of arcs: in a slip it is the friction, linear in time
 
  private:
+  const Trajectory& trajectory_;
   double turns_;  // four times the rate of the spring [1/s]
 };
 
@@ -163,7 +181,10 @@ class LargestForceReader final : public TrajectoryReader {
 /// Found by a search within each slip; accurate to 1e-9. Cost: about that of `forces`.
 inline LargestForce peak_force(const Trajectory& trajectory) {
   detail::LargestForceReader reader(trajectory);
-  trajectory.read(reader, trajectory.end());
+  if (reader.at_ends)
+    detail::read_ends(trajectory, reader, trajectory.end());
+  else
+    trajectory.read(reader, trajectory.end());
   return reader.largest;
 }
 

@@ -12,6 +12,7 @@
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/sliding/detail/bounds.hpp"
+#include "stickslip/sliding/detail/recall.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/sliding/trajectory.hpp"
 #include "stickslip/state.hpp"
@@ -49,13 +50,14 @@ class MarginReader final : public TrajectoryReader {
   explicit MarginReader(const Trajectory& trajectory)
       : trajectory_(trajectory),
         bounds_{trajectory.mounting().stops, trajectory.mounting().one_way},
-        from_(trajectory.response().displacement.front()) {}
+        from_(trajectory.response().displacement.front()),
+        constant_(trajectory.has_constant_level()),
+        holds_{trajectory.hold(State(), 1, Direction::forward), trajectory.hold(State(), 1, Direction::backward)} {}
 
   void arc(const Arc& arc) override {
-    for (const double t : {0.0, arc.duration}) {
-      const Load load = arc.load(t);
+    const auto pass = [&](double t, const Load& load) {
       if (!departures_.empty()) std::erase_if(departures_, [&](Departed& one) { return passes(one, load); });
-      if (!arc.rests()) continue;
+      if (!arc.rests()) return;
       const auto approach_at = [&](const State& at) {
         for (Approach& one : approaches_) approach(one, at, load);
       };
@@ -63,12 +65,20 @@ class MarginReader final : public TrajectoryReader {
         approach_at(arc.at(t));
       else  // no copy
         approach_at(arc.start);
-    }
+    };
+    // Where the last arc ended in the same, all is said of the beginning.
+    const Load begins = arc.load(0), ends = arc.load(arc.duration);
+    if (!(went_on_ && rested_ == arc.rests() && equal(begins.load, ended_.load) && equal(begins.normal, ended_.normal)))
+      pass(0, begins);
+    pass(arc.duration, ends);
+    went_on_ = true;
+    ended_ = ends;
     rested_ = arc.rests();
   }
 
   void event(EventKind kind, double time, const State& at, const Load& load) override {
     const bool at_once = last_ && equal(last_->time, time);
+    went_on_ = false;
     switch (kind) {
       case EventKind::breakaway:
         if (equal(at.velocity, 0) && !at.in_flight) broke_away(at, load);
@@ -135,7 +145,8 @@ class MarginReader final : public TrajectoryReader {
     return weighed > 0 && weighed < infinite ? 1 - sign(direction) * net.load / weighed : infinite;
   }
   double held(Direction direction, const State& at, const Net& net) const {
-    const double holds = trajectory_.hold(at, net.weight, direction);
+    const double holds =
+        constant_ ? holds_[direction == Direction::forward ? 0 : 1] : trajectory_.hold(at, net.weight, direction);
     return left_of(bounds_.bound(direction, at.displacement, holds), direction, net);
   }
 
@@ -165,8 +176,11 @@ class MarginReader final : public TrajectoryReader {
   /// During a rest: the maxima of load / level.
   void approach(Approach& one, const State& at, const Load& load) {
     const double left = held(one.direction, at, net(load, at.displacement));
-    if (left > one.last && one.falls) count(one.last);
-    if (!equal(left, one.last)) one.falls = left < one.last;
+    const bool rises = left > one.last;
+    // Without a branch, which no processor would foresee.
+    constexpr double unless[] = {infinite, 0};
+    count(std::abs(one.last) + unless[rises & one.falls]);
+    one.falls = (left < one.last) | (one.falls & !rises);
     one.last = left;
   }
   /// The rest ends: the final approach counts, but not that to the breakaway.
@@ -207,8 +221,12 @@ class MarginReader final : public TrajectoryReader {
   Bounds bounds_;
   std::array<Approach, 2> approaches_ = none();
   bool rested_ = false;               // during the last arc
+  bool went_on_ = false;              // without an event since
+  Load ended_{};                      // its load
   std::vector<Departed> departures_;  // whose loads still grow
   double from_;                       // x at the last event [m]
+  bool constant_;                     // the levels
+  double holds_[2];                   // if they are constant, those at rest, forward and backward [m/s^2]
   std::optional<Event> last_;
 };
 
@@ -220,7 +238,7 @@ class MarginReader final : public TrajectoryReader {
 /// `integrate`.
 inline Margins margins(const Trajectory& trajectory) {
   detail::MarginReader reader(trajectory);
-  trajectory.read(reader, trajectory.end());
+  detail::read_ends(trajectory, reader, trajectory.end());
   return reader.margins;
 }
 

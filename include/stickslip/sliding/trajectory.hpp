@@ -38,8 +38,10 @@ struct Load {
 };
 
 namespace detail {
+template <class Reader>
+class Recall;
 class Tracer;
-}
+}  // namespace detail
 
 /// An arc of a trajectory: a part of a motion with one mode and one direction, within one segment of the ground motion.
 /// During an arc the load is monotonic in time, and N has one sign. Times `t` are measured from its beginning [s], from
@@ -88,6 +90,8 @@ class Arc {
   }
 
  private:
+  template <class Reader>
+  friend class detail::Recall;
   friend class detail::Tracer;
 
   Arc(double from, double to, double lasts, const State& state, const LoadSegment& line,
@@ -158,11 +162,15 @@ class Trajectory {
   }
   /// Whether the law has constant levels.
   bool has_constant_level() const noexcept { return engine_.law().constant; }
+  /// Whether the levels depend on more than place and speed.
+  bool has_memory() const noexcept { return engine_.law().memory || engine_.law().heated; }
   /// Whether a spring draws the slider back.
   bool has_spring() const noexcept { return mounting().stiffness() > 0 || engine_.law().springs; }
 
+  /// The ground motion; null if it is harmonic.
+  const GroundMotion* ground() const noexcept { return ground_; }
   /// Time of a sample of the response [s].
-  virtual double time(std::size_t sample) const = 0;
+  double time(std::size_t sample) const { return ground_ != nullptr ? ground_->time(sample) : time_of(sample); }
   /// Number of samples of the ground motion.
   virtual std::size_t samples() const = 0;
 
@@ -180,11 +188,18 @@ class Trajectory {
   }
 
  protected:
-  Trajectory(const detail::Engine& engine, const Response& response) : engine_(engine), response_(response) {}
+  Trajectory(const detail::Engine& engine, const GroundMotion* ground, const Response& response)
+      : engine_(engine), ground_(ground), response_(response) {}
 
   const detail::Engine& engine_;
 
  private:
+  template <class Reader>
+  friend class detail::Recall;
+
+  virtual double time_of(std::size_t sample) const = 0;
+
+  const GroundMotion* ground_;
   const Response& response_;
 };
 
@@ -349,14 +364,17 @@ template <Motion M>
 class TrajectoryUnder : public Trajectory {
  public:
   void read(TrajectoryReader& reader, double until) const override;
-  double time(std::size_t sample) const override { return motion_.time(sample); }
   std::size_t samples() const override { return motion_.samples(); }
 
  protected:
   TrajectoryUnder(const Engine& engine, const M& motion, const Response& response)
-      : Trajectory(engine, response), motion_(motion) {}
+      : Trajectory(engine, ground_of(motion), response), motion_(motion) {}
 
  private:
+  static const GroundMotion* ground_of(const GroundMotion& motion) noexcept { return &motion; }
+  static const GroundMotion* ground_of(const HarmonicMotion&) noexcept { return nullptr; }
+  double time_of(std::size_t sample) const override { return motion_.time(sample); }
+
   const M& motion_;
 };
 
