@@ -14,6 +14,7 @@ namespace stickslip::detail {
 struct LinearLane {
   std::unique_ptr<LinearMover> mover;
   bool turned;          ///< under the flipped motion
+  const LinearLevels* levels = mover->levels();
   State state{};        ///< at the end
   SweepWatch watch{};   ///< at the end
   bool failed = false;  ///< the event loop gave up
@@ -23,7 +24,9 @@ struct LinearLane {
 ///
 /// The lanes are taken as many at a time as a vector holds. Each step takes a vector through one segment: lanes that
 /// slide by a linear step, if that proves that the speed stays positive and nothing changes, lanes that are stuck if
-/// their load is held. The other lanes take this segment by their event loop. A vector that is stuck in all lanes skips
+/// their load is held. The other lanes take this segment through
+/// its events: with constant levels, by the power series of their step, where no decision is close; else by their event
+/// loop. A vector that is stuck in all lanes skips
 /// to the next segment that moves one of them.
 ///
 /// @param settle  go on without ground acceleration until they rest

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -38,10 +39,16 @@ struct LinearStepOf {
   double way_u = 0, way_q = 0, way_g = 0;
   double end_u = 0, end_q = 0, end_g = 0;
   bool one_arch = false;  ///< whether the acceleration has at most one zero within
+  /// The basis decay, impulse, step, ramp after a part of the segment, as power series in that part; the time unit is the
+  /// duration. Good to round-off if `smooth`.
+  static constexpr std::size_t terms = 12;
+  alignas(64) double series[terms][4] = {};
+  double duration = 0;
+  bool smooth = false;
 
   LinearStepOf() = default;
-  LinearStepOf(double damping_, double stiffness_, double duration) noexcept
-      : stiffness(stiffness_), damping(damping_) {
+  LinearStepOf(double damping_, double stiffness_, double duration_) noexcept
+      : stiffness(stiffness_), damping(damping_), duration(duration_) {
     const double frequency = std::copysign(std::sqrt(std::abs(stiffness)), stiffness), half = damping / 2;
     const DampedBasis basis(damping, frequency, duration);
     speed_u = basis.decay;
@@ -55,6 +62,20 @@ struct LinearStepOf {
     end_g = basis.impulse / duration;
     one_arch =
         !(frequency > half) || duration * std::sqrt(std::abs(excess_damping(half, frequency))) <= std::numbers::pi;
+    // impulse'' + c impulse' + k impulse = 0. What is left out is at most (1/4)^12 / 12!.
+    const double c = damping * duration, k = stiffness * duration * duration;
+    smooth = c + std::sqrt(std::abs(k)) <= 0.25;
+    double impulse = 0, next = 1;
+    for (std::size_t n = 0; n < terms; ++n) {
+      const auto m = static_cast<double>(n);
+      series[n][0] = (m + 1) * next;
+      series[n][1] = impulse;
+      if (n + 1 < terms) series[n + 1][2] = impulse / (m + 1);
+      if (n + 2 < terms) series[n + 2][3] = impulse / ((m + 1) * (m + 2));
+      const double after = -(c * (m + 1) * next + k * impulse) / ((m + 1) * (m + 2));
+      impulse = next;
+      next = after;
+    }
   }
 };
 
@@ -66,6 +87,44 @@ struct LinearRegime {
   /// changes, for certain, while y is below `limit`.
   double sign = 0, base = 0, limit = 0;
   const LinearStepOf* step = nullptr;
+};
+
+/// A slider whose levels are constant, on level ground: all that its motion depends on.
+struct LinearLevels {
+  double resist_forward, resist_backward, hold_forward, hold_backward;  ///< [m/s^2]
+  Bounds bounds;
+  const LinearStepOf* step;
+
+  double resist(double sign) const noexcept { return sign > 0 ? resist_forward : resist_backward; }
+  double hold(double sign) const noexcept { return sign > 0 ? hold_forward : hold_backward; }
+  double room(double sign, double x) const noexcept {
+    return bounds.room(sign > 0 ? Direction::forward : Direction::backward, x);
+  }
+
+  LinearRegime regime(const State& state) const noexcept {
+    constexpr double round_off = 0x1p-40;
+    const double x = state.displacement, pull = step->stiffness * x;
+    LinearRegime regime;
+    if (state.mode == Mode::stuck) {
+      const auto holds = [&](Direction direction, double level) {
+        return bounds.bound(direction, x, level) - round_off * std::abs(pull);
+      };
+      regime.low = pull - (1 - round_off) * holds(Direction::backward, hold_backward);
+      regime.high = pull + (1 - round_off) * holds(Direction::forward, hold_forward);
+      return regime;
+    }
+    regime.sign = stickslip::sign(direction_of(state.mode));
+    regime.base = resist(regime.sign);
+    regime.step = step;
+    regime.limit = limit(regime.sign * x, room(regime.sign, x));
+    if (!step->one_arch || !std::isfinite(regime.base)) regime.limit = -never;
+    return regime;
+  }
+
+  /// Up to where y surely stays before what is ahead.
+  static double limit(double y, double room) noexcept {
+    return room < never ? y + room - 0x1p-40 * (std::abs(y) + room) : never;
+  }
 };
 
 /// What a sweep keeps of a motion.
@@ -82,10 +141,11 @@ struct SweepWatch {
     if (kind == EventKind::impact) impacts.add(state.displacement, state.velocity);
     add(state);
   }
-  void add(const State& state) noexcept {
-    peak = std::max(peak, std::abs(state.displacement));
-    sliding_distance += std::abs(state.displacement - slip_from);
-    slip_from = state.displacement;
+  void add(const State& state) noexcept { pass(state.displacement); }
+  void pass(double x) noexcept {
+    peak = std::max(peak, std::abs(x));
+    sliding_distance += std::abs(x - slip_from);
+    slip_from = x;
   }
 };
 
@@ -95,6 +155,8 @@ class LinearMover {
   virtual ~LinearMover() = default;
 
   virtual LinearRegime regime(const State& state) const = 0;
+  /// Null if they are not constant.
+  virtual const LinearLevels* levels() const = 0;
   /// Moves the memory of the law over a distance within the regime [m].
   virtual void slid(State& state, double distance) const = 0;
   /// Moves it through a segment by the event loop.
@@ -116,9 +178,20 @@ class LinearMoverOf final : public LinearMover {
       : slider_(slider),
         flows_(flows),
         bounds_(slider.mounting().stops, slider.mounting().one_way),
-        duration_(duration) {}
+        duration_(duration) {
+    if constexpr (form_of<Law> == Form::constant && !MemoryLaw<Law>) {
+      const auto of = [&](auto&& level, Direction direction) { return level(flows_.law_now(State(), 1), direction); };
+      const auto resists = [](const auto& law, Direction way) { return stickslip::resist(law, 0.0, 0.0, way); };
+      const auto holds = [](const auto& law, Direction way) { return stickslip::hold(law, 0.0, way); };
+      levels_ = {of(resists, Direction::forward), of(resists, Direction::backward), of(holds, Direction::forward),
+                 of(holds, Direction::backward), bounds_,                         &step(slider_.stiffness())};
+    }
+  }
+
+  const LinearLevels* levels() const override { return levels_ ? &*levels_ : nullptr; }
 
   LinearRegime regime(const State& state) const override {
+    if (levels_) return levels_->regime(state);
     constexpr double round_off = 0x1p-40;
     const double x = state.displacement, pull = flows_.pull(x, 1);
     LinearRegime regime;
@@ -140,7 +213,7 @@ class LinearMoverOf final : public LinearMover {
     regime.sign = stickslip::sign(direction);
     regime.base = level - rises * y;
     regime.step = &step(slider_.stiffness() + rises);
-    regime.limit = room < never ? y + room - round_off * (std::abs(y) + room) : never;
+    regime.limit = LinearLevels::limit(y, room);
     if (!regime.step->one_arch || !std::isfinite(level)) regime.limit = -never;
     return regime;
   }
@@ -178,6 +251,7 @@ class LinearMoverOf final : public LinearMover {
   Bounds bounds_;
   double duration_;                                           // of the segments [s]
   mutable std::vector<std::unique_ptr<LinearStepOf>> steps_;  // those met so far: a law has few slopes
+  std::optional<LinearLevels> levels_;
 };
 
 /// The mover of a slider, held by reference; null if it is on a slope, or its motion is not linear between events.
