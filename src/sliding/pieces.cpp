@@ -154,6 +154,20 @@ class SideBySide {
   LaneAccount account_{.next = next_};
 };
 
+/// Whether a block moves in so many parts of a motion that its pieces side by side take less time than one after the
+/// other, where rests are passed: in a third, as measured.
+bool moves_often(const Coulomb& law, const GroundMotion& motion) {
+  const GroundMotion::Pieces ground(motion);
+  constexpr std::size_t part = 32;
+  if (!(motion.peak_acceleration() > std::min(law.forward(), law.backward()))) return false;
+  std::size_t parts = 0, moves = 0;
+  for (std::size_t i = 0; i < motion.segments(); i += part, ++parts) {
+    const Segment around = ground.around(i, std::min(part, motion.segments() - i))[0];
+    moves += -around.start > law.forward() || around.end > law.backward();
+  }
+  return 3 * moves > parts;
+}
+
 template <class RecorderType>
 bool run(const Engine& engine, const GroundMotion& motion, State& state, RecorderType& recorder,
          const HistorySpans& histories) {
@@ -165,6 +179,7 @@ bool run(const Engine& engine, const GroundMotion& motion, State& state, Recorde
   if (!std::isfinite(motion.dt()) || motion.samples() < 8192 || !(std::min(law.forward(), law.backward()) > smallest) ||
       !(motion.peak_acceleration() > smallest) || !(motion.dt() > smallest))
     return false;
+  if (!moves_often(law, motion)) return false;
   constexpr std::size_t most = pieces * longest;
   const std::size_t segments = motion.segments();
   SideBySide<RecorderType> side_by_side(law, motion, histories, recorder);

@@ -1,6 +1,7 @@
 // The history of ground acceleration.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "stickslip/base/equal.hpp"
+#include "stickslip/base/extremes.hpp"
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/ground/segment.hpp"
@@ -147,6 +149,12 @@ class GroundMotion {
     }
     /// The samples.
     const double* samples() const noexcept { return starts_; }
+    /// Segments that contain all values of `count` segments from the i-th one on: all their loads are between those at the
+    /// ends of these.
+    std::array<Segment, 1> around(std::size_t i, std::size_t count) const noexcept {
+      const auto [least, most] = detail::extremes(starts_ + i, count + 1);
+      return {{{dt_, least, most}}};
+    }
 
    private:
     const double *starts_, *ends_, *times_;

@@ -165,9 +165,10 @@ Response integrate_in_order(const Slider<Law>& slider, const M& motion, const In
 ///                                escaped); more events than 1,000,000 plus eight per segment, or per period of a
 ///                                harmonic motion (a spring that oscillates that often within a segment)
 /// Constant friction: exact to round-off, 1e-13 of the scale of x; 20 to 42 ns per sample, 30 to 61 ns with a spring;
-/// with a damper, exact to 1e-12, about 0.3 us per sample. The compiled library splits a record with a constant time
-/// step and at least 8192 samples into pieces, and integrates a block without spring and damper over them in parallel
-/// SIMD lanes (AVX-512, AVX2, SSE4 or NEON, whichever the processor has): 12 to 30 ns per sample, and up to 7 MB of
+/// with a damper, exact to 1e-12, about 0.3 us per sample; at rest 1 ns. The compiled library splits a record with a
+/// constant time step and at least 8192 samples, in which the load exceeds the level in a third of the time or more, into
+/// pieces, and integrates a block without spring and damper over them in parallel SIMD lanes (AVX-512, AVX2, SSE4 or
+/// NEON, whichever the processor has): 12 to 30 ns per sample, and up to 7 MB of
 /// memory. The last bits may differ from those of the header-only core; whether a velocity that only touches zero
 /// counts as a stop may therefore also differ. Friction that is linear in the distance slid (Degrading) has a closed
 /// form under horizontal motion, exact to 1e-12 of the scale; 0.13 us per sample. Other laws use Taylor series, exact

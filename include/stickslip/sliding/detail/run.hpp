@@ -2,12 +2,14 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 
 #include "stickslip/base/equal.hpp"
+#include "stickslip/base/extremes.hpp"
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/ground/motion.hpp"
@@ -87,6 +89,13 @@ class LoadPieces {
     if (up_.empty()) return load_segment(pieces_.segment(i), slope_);
     return load_segment(pieces_.segment(i), slope_, up_[i], up_[i + next_]);
   }
+  /// As GroundMotion::Pieces::around. Load and weight are linear in both components.
+  std::array<LoadSegment, 2> around(std::size_t i, std::size_t count) const noexcept {
+    const Segment along = pieces_.around(i, count)[0];
+    if (up_.empty()) return {load_segment(along, slope_), load_segment(along, slope_)};
+    const auto [least, most] = extremes(&up_[i], count + 1);
+    return {load_segment(along, slope_, least, most), load_segment(along, slope_, most, least)};
+  }
 
  private:
   GroundMotion::Pieces pieces_;
@@ -138,7 +147,15 @@ class SampledSegments final : public Segments<AnySegment> {
     const Resting resting = resting_;
     const std::size_t until = std::min(count_, i_ - i_ % AnySink::work_per_report + AnySink::work_per_report);
     std::size_t i = i_;
-    while (i < until && resting.holds(pieces.segment(i))) ++i;
+    constexpr std::size_t block = 32;
+    for (std::size_t end = i; i == end && i < until;) {
+      end = std::min(i + block, until);
+      const auto around = pieces.around(i, end - i);
+      if (std::all_of(around.begin(), around.end(), [&](const AnySegment& s) { return resting.holds(s); }))
+        i = end;
+      else
+        while (i < end && resting.holds(pieces.segment(i))) ++i;
+    }
     if (i == i_) return;
     histories_.keep(i_ + 1, i + 1, now, engine_);
     if constexpr (requires { sink_.pass(i - i_); }) sink_.pass(i - i_);
@@ -206,13 +223,18 @@ class HarmonicSegments final : public Segments<HarmonicSegment> {
 
 /// Whether the normal force is negative anywhere.
 inline bool may_fly(const GroundMotion& motion, double slope) noexcept {
+  if (!motion.has_vertical() && equal(slope, 0)) return false;
   const LoadPieces pieces(motion, slope);
-  double least = never;
-  for (std::size_t i = 0; i < motion.segments(); ++i) {
-    const LoadSegment segment = pieces.segment(i);
-    least = std::min(least, std::min(segment.normal_start, segment.normal_end));
+  constexpr std::size_t block = 32;
+  const auto falls = [](const LoadSegment& s) { return s.normal_start < 0 || s.normal_end < 0; };
+  for (std::size_t i = 0; i < motion.segments(); i += block) {
+    const std::size_t end = std::min(i + block, motion.segments());
+    const auto around = pieces.around(i, end - i);
+    if (std::none_of(around.begin(), around.end(), falls)) continue;
+    for (std::size_t k = i; k < end; ++k)
+      if (falls(pieces.segment(k))) return true;
   }
-  return least < 0;
+  return false;
 }
 
 /// Throw if the ground falls freely, or faster, at the end of the motion: the slider would never land.
