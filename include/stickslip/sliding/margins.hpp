@@ -55,6 +55,10 @@ class MarginReader final : public TrajectoryReader {
         holds_{trajectory.hold(State(), 1, Direction::forward), trajectory.hold(State(), 1, Direction::backward)} {}
 
   void arc(const Arc& arc) override {
+    if (!arc.rests() && departures_.empty()) {
+      rested_ = went_on_ = false;
+      return;
+    }
     const auto pass = [&](double t, const Load& load) {
       if (!departures_.empty()) std::erase_if(departures_, [&](Departed& one) { return passes(one, load); });
       if (!arc.rests()) return;

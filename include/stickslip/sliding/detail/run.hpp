@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 
 #include "stickslip/base/equal.hpp"
@@ -223,7 +224,8 @@ class HarmonicSegments final : public Segments<HarmonicSegment> {
 
 /// Whether the normal force is negative anywhere.
 inline bool may_fly(const GroundMotion& motion, double slope) noexcept {
-  if (!motion.has_vertical() && equal(slope, 0)) return false;
+  const std::span<const double> up = motion.vertical();
+  if (equal(slope, 0) && (up.empty() || extremes(up.data(), up.size()).least > -standard_gravity)) return false;
   const LoadPieces pieces(motion, slope);
   constexpr std::size_t block = 32;
   const auto falls = [](const LoadSegment& s) { return s.normal_start < 0 || s.normal_end < 0; };
