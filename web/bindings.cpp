@@ -25,6 +25,7 @@
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/degrading.hpp"
 #include "stickslip/friction/kumar.hpp"
+#include "stickslip/friction/laws.hpp"
 #include "stickslip/friction/multi_pendulum.hpp"
 #include "stickslip/friction/static_kinetic.hpp"
 #include "stickslip/friction/stribeck.hpp"
@@ -41,11 +42,34 @@
 #include "stickslip/planar/slider.hpp"
 #include "stickslip/plausibility.hpp"
 #include "stickslip/slider.hpp"
+#include "stickslip/sliding/detail/engine_of.hpp"
 #include "stickslip/sliding/forces.hpp"
 #include "stickslip/sliding/integrate.hpp"
 #include "stickslip/sliding/margins.hpp"
 #include "stickslip/sliding/trajectory.hpp"
 #include "stickslip/units.hpp"
+
+// What the page never asks of a law, and would be a tenth of the module: harmonic motions, and histories alone.
+namespace stickslip::detail {
+namespace {
+[[noreturn]] void leave_out() { throw std::logic_error("the page leaves this out"); }
+}  // namespace
+
+#define STICKSLIP_LEAVE_OUT(Law)                                                                             \
+  template <>                                                                                                \
+  void EngineOf<Law>::move(Segments<HarmonicSegment>&, double, double, State&, Sink&) const {                \
+    leave_out();                                                                                             \
+  }                                                                                                          \
+  template <>                                                                                                \
+  void EngineOf<Law>::record(const GroundMotion&, State&, NoRecorder&, const HistorySpans&) const {          \
+    leave_out();                                                                                             \
+  }                                                                                                          \
+  template <>                                                                                                \
+  void EngineOf<Law>::record(const GroundMotion&, Contact, State&, NoRecorder&, const HistorySpans&) const { \
+    leave_out();                                                                                             \
+  }
+STICKSLIP_LAWS(STICKSLIP_LEAVE_OUT)
+}  // namespace stickslip::detail
 
 namespace stickslip::web {
 
