@@ -925,6 +925,7 @@ test("screenshots at both widths in both modes", async () => {
       await page.focus("#one figure[tabindex]");
       for (let i = 0; i < 20; ++i) await page.keyboard.press("PageDown");
       await page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 300)));
+      await page.waitForFunction(() => ["sliding", "response"].every((one) => document.querySelector(`#title-${one}`)?.textContent));
       const wide = await page.evaluate(() => document.documentElement.scrollWidth);
       assert.ok(wide <= width, `the page is ${wide} pixels wide in a window of ${width}`);
       const path = /** @type {`${string}.png`} */ (`${screenshots}${width}-${value}.png`);
