@@ -2,6 +2,7 @@
 // numbers and bytes; see exports.hpp.
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -14,22 +15,19 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <tuple>
+#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "exports.hpp"
+#include "stickslip/base/parts.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/excitation/gaussian.hpp"
 #include "stickslip/excitation/spectrum.hpp"
-#include "stickslip/friction/caster.hpp"
-#include "stickslip/friction/coulomb.hpp"
-#include "stickslip/friction/degrading.hpp"
-#include "stickslip/friction/kumar.hpp"
 #include "stickslip/friction/laws.hpp"
-#include "stickslip/friction/multi_pendulum.hpp"
 #include "stickslip/friction/static_kinetic.hpp"
-#include "stickslip/friction/stribeck.hpp"
-#include "stickslip/friction/velocity_dependent.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/ground/intensity_measures.hpp"
 #include "stickslip/ground/orientation.hpp"
@@ -42,6 +40,7 @@
 #include "stickslip/planar/slider.hpp"
 #include "stickslip/plausibility.hpp"
 #include "stickslip/slider.hpp"
+#include "stickslip/sliding/any_slider.hpp"
 #include "stickslip/sliding/detail/engine_of.hpp"
 #include "stickslip/sliding/forces.hpp"
 #include "stickslip/sliding/integrate.hpp"
@@ -96,24 +95,13 @@ int keep(RecordComponent component) {
   return next++;
 }
 
-/// The most surfaces of a bearing.
-constexpr std::size_t most_surfaces = 5;
-
-/// What the page chooses; the names are those of the command's options. NaN is an option that is not given.
+/// What the page chooses beside the law; the names are those of the command's options. NaN is an option that is not
+/// given.
 struct Settings {
-  enum Law { coulomb, caster, one_way, speed, degrading, stribeck, pendulum, kumar };
-  double law, mu, mu_static, reach, mu_fast, rate, mu_residual, distance, stribeck_speed, exponent;
-  double static_pressure, reference_pressure, contact_radius, temperature, diffusivity, conductivity;
-  double period, damping_ratio, spring_pendulum, slope, stop_gap, restitution;
-  double vertical, clipped, scale;
-  double radii[most_surfaces], mus[most_surfaces], capacities[most_surfaces];
+  double period, damping_ratio, spring_pendulum, slope, one_way, stop_gap, restitution, vertical, clipped, scale;
 };
-
 constexpr const char* setting_names =
-    "law mu mu_static reach mu_fast rate mu_residual distance stribeck_speed exponent static_pressure "
-    "reference_pressure contact_radius temperature diffusivity conductivity period damping_ratio pendulum slope "
-    "stop_gap restitution vertical clipped scale radii.0 radii.1 radii.2 radii.3 radii.4 mus.0 mus.1 mus.2 mus.3 mus.4 "
-    "capacities.0 capacities.1 capacities.2 capacities.3 capacities.4";
+    "period damping_ratio pendulum slope one_way stop_gap restitution vertical clipped scale";
 
 Mounting mounting_of(const Settings& s) {
   Mounting on;
@@ -128,70 +116,72 @@ Mounting mounting_of(const Settings& s) {
     }
   }
   if (!std::isnan(s.slope)) on.slope_degrees = s.slope;
+  on.one_way = is(s.one_way);
   if (!std::isnan(s.stop_gap)) on.stops = Stops(s.stop_gap, std::isnan(s.restitution) ? 0 : s.restitution);
   return on;
 }
 
-/// The bearing with several surfaces, whose largest coefficient is mu.
-MultiPendulum bearing_of(const Settings& s) {
-  const auto listed = [](const double(&values)[most_surfaces]) {
-    return std::vector<double>(values,
-                               std::find_if(values, values + most_surfaces, [](double v) { return std::isnan(v); }));
-  };
-  std::vector<double> radii = listed(s.radii), mus = listed(s.mus), capacities = listed(s.capacities);
-  if (radii.size() != 2 && radii.size() != 3 && radii.size() != 5)
-    throw std::invalid_argument("radii must be 2, 3 or 5, of a double, triple or quintuple bearing, got " +
-                                std::to_string(radii.size()));
-  if (!mus.empty())
-    if (const double most = *std::max_element(mus.begin(), mus.end()); most != s.mu)
-      for (double& mu : mus) mu *= s.mu / most;
-  if (capacities.empty()) capacities.assign(radii.size(), std::numeric_limits<double>::infinity());
-  const bool nested = radii.size() > 2;
-  return {std::move(radii), std::move(mus), std::move(capacities), std::isnan(s.restitution) ? 0 : s.restitution,
-          nested};
+/// The laws of the library whose parts are listed, which the page can give; and those with static friction on top.
+template <class Law>
+using HasParts = std::bool_constant<WithParts<Law>>;
+using PageLaws = LibraryLaws::where<HasParts>;
+template <class Law>
+using IsOffered = std::bool_constant<WithParts<Law> || is_static_kinetic<Law>>;
+using PageSlider = decltype(detail::sliders_of(LibraryLaws::where<IsOffered>()));
+
+/// The type of a part.
+template <class T, class OfPart>
+using ValueOf = std::remove_cvref_t<std::invoke_result_t<decltype(std::declval<OfPart>().get), const T&>>;
+
+/// The next of the numbers as a value: an object of parts, a number, or a list, which follows its length.
+template <class T>
+T take(std::span<const double>& numbers) {
+  if constexpr (WithParts<T>) {
+    return std::apply([&](const auto&... part) { return T{take<ValueOf<T, decltype(part)>>(numbers)...}; }, T::parts());
+  } else if constexpr (std::convertible_to<T, double>) {
+    if (numbers.empty()) throw std::invalid_argument("wrong number of parts");
+    const double value = numbers.front();
+    numbers = numbers.subspan(1);
+    return static_cast<T>(value);
+  } else {
+    T list(static_cast<std::size_t>(take<double>(numbers)));
+    for (auto& value : list) value = take<double>(numbers);
+    return list;
+  }
 }
 
-/// Calls `use(law, mounting)` with the law of the settings.
-template <class Use>
-void with_law(const Settings& s, Use&& use) {
-  constexpr double g = standard_gravity;
-  Mounting on = mounting_of(s);
-  const auto sticky = [&](auto law) {
-    if (std::isnan(s.mu_static)) return use(std::move(law), on);
-    detail::require(s.mu_static >= s.mu && std::isfinite(s.mu_static), "static mu must be finite and at least mu",
-                    s.mu_static);
-    use(StaticKinetic(std::move(law), s.mu_static * g), on);
+/// A slider of the settings. The numbers are the place of the law among PageLaws, the level at rest [m/s^2], NaN if it
+/// is that of the law, and the parts of the law.
+PageSlider slider_of(const Settings& s, std::span<const double> numbers) {
+  const Mounting on = mounting_of(s);
+  auto left = take<int>(numbers);
+  const auto static_level = take<double>(numbers);
+  std::optional<PageSlider> slider;
+  PageLaws::for_each([&]<class Law>() {
+    if (left-- != 0) return;
+    Law law = take<Law>(numbers);
+    if constexpr (LibraryLaws::has<StaticKinetic<Law>>)
+      if (!std::isnan(static_level)) slider = Slider(StaticKinetic(law, static_level), on);
+    if (!slider) slider = Slider(std::move(law), on);
+  });
+  if (!slider) throw std::invalid_argument("unknown law");
+  return *std::move(slider);
+}
+
+/// Says of each part of a law the name, unit and range.
+template <WithParts T>
+void say_parts(const char* law) {
+  const auto say = [&](const auto& part) {
+    using Value = ValueOf<T, decltype(part)>;
+    if constexpr (WithParts<Value>) {
+      say_parts<Value>(law);
+    } else {
+      said += std::string(law) + "\t" + part.name + "\t" + part.unit + "\n";
+      answer.insert(answer.end(),
+                    {part.range.low, part.range.high, part.range.open ? 1.0 : 0.0, std::integral<Value> ? 1.0 : 0.0});
+    }
   };
-  switch (static_cast<Settings::Law>(static_cast<int>(s.law))) {
-    case Settings::coulomb:
-      return sticky(Coulomb::from_friction(s.mu));
-    case Settings::caster:
-      return sticky(Caster(s.mu * g, s.reach));
-    case Settings::one_way:
-      if (std::isnan(s.slope) && std::isnan(s.mu_static))  // a level that nothing outgrows, as the command has it
-        return use(Coulomb(s.mu * g, std::numeric_limits<double>::infinity()), on);
-      on.one_way = true;
-      return sticky(Coulomb::from_friction(s.mu));
-    case Settings::speed:
-      return sticky(VelocityDependent(s.mu * g, s.mu_fast * g, s.rate));
-    case Settings::stribeck:
-      return use(Stribeck(s.mu_static * g, s.mu * g, s.stribeck_speed, static_cast<int>(s.exponent)), on);
-    case Settings::pendulum:
-      return use(bearing_of(s), on);
-    case Settings::kumar:
-      return use(KumarFriction({.mu_ref = s.mu,
-                                .static_pressure = s.static_pressure,
-                                .reference_pressure = s.reference_pressure,
-                                .contact_radius = s.contact_radius,
-                                .temperature = s.temperature,
-                                .rate = s.rate,
-                                .diffusivity = s.diffusivity,
-                                .conductivity = s.conductivity}),
-                 on);
-    case Settings::degrading:
-      return sticky(Degrading({0, s.distance}, {s.mu * g, s.mu_residual * g}));
-  }
-  throw std::invalid_argument("unknown law");
+  std::apply([&](const auto&... part) { (say(part), ...); }, T::parts());
 }
 
 Response response;
@@ -283,19 +273,18 @@ void summarize(const Found& found, const Margins& margin, bool at_rest, double p
 }
 
 template <class Law>
-void slide(const Law& law, const Mounting& mounting, const GroundMotion& motion, bool clipped) {
-  const Slider<Law> slider(law, mounting);
+void slide(const Slider<Law>& slider, const GroundMotion& motion, bool clipped) {
   response = settled(slider, motion, clipped, std::move(response));
   const Margins margin = read(*trajectory(slider, motion, response));
-  const double held = hold(law_at(law, State{}), 0, Direction::forward);
+  const double held = hold(law_at(slider.law(), State{}), 0, Direction::forward);
   summarize(response, margin, response.state.mode == Mode::stuck, motion.peak_acceleration(), held);
 }
 
 /// Slides in the plane; answers with the summary, and then the components of the displacement at each sample.
 template <class Law>
-void slide_in_plane(const Law& law, const Mounting& mounting, const GroundMotion& motion, bool clipped) {
+void slide_in_plane(const Slider<Law>& on_axis, const GroundMotion& motion, bool clipped) {
   if constexpr (IsotropicLaw<Law>) {
-    const PlanarSlider<Law> slider(law, mounting);
+    const PlanarSlider<Law> slider(on_axis.law(), on_axis.mounting());
     PlanarIntegrateOptions options;
     options.contact = clipped ? Contact::clipped : Contact::flight;
     PlanarResponse found;
@@ -363,6 +352,14 @@ STICKSLIP_EXPORT(ranges) void ranges() {
     said += std::string(range.quantity) + "\t" + range.where + "\n";
     answer.insert(answer.end(), {range.low, range.high, range.usual_low, range.usual_high, range.meant_from});
   }
+}
+
+/// The laws, in the order of their numbers. `text` has a line of law, name and unit for each part, separated by tabs,
+/// in the order in which they are given; `numbers` its bounds, whether the lower one is excluded, whether it is whole.
+STICKSLIP_EXPORT(laws) void laws() {
+  said.clear();
+  answer.clear();
+  PageLaws::for_each([]<class Law>() { say_parts<Law>(Law::class_name); });
 }
 
 /// Reads a record. The input is the file's name, units and component, each followed by a zero byte, and the content.
@@ -497,33 +494,33 @@ STICKSLIP_EXPORT(response_spectrum) int response_spectrum(int number, double dam
   });
 }
 
-/// Slides. The input is the settings.
+/// Slides. The input is the settings and the law.
 /// @return 0; `numbers` is the summary, and `history` has the histories
 STICKSLIP_EXPORT(slide) int slide(int number) {
   return guarded([&] {
     const Settings settings = given_settings<Settings>();
     driving = driven(settings, of(number).motion);
-    with_law(settings, [&](const auto& law, const Mounting& on) { slide(law, on, *driving, is(settings.clipped)); });
+    std::visit([&](const auto& slider) { slide(slider, *driving, is(settings.clipped)); },
+               slider_of(settings, given_numbers<Settings>()));
     return 0;
   });
 }
 
-/// Peaks and magnitudes of residuals [m] for each mu in the input, after the settings: a sliding spectrum.
-STICKSLIP_EXPORT(spectrum) int spectrum(int number) {
+/// Peaks and magnitudes of residuals [m] of `count` sliders, whose laws follow the settings: a sliding spectrum.
+STICKSLIP_EXPORT(spectrum) int spectrum(int number, int count) {
   return guarded([&] {
-    Settings settings = given_settings<Settings>();
-    const std::vector<double> mus = given_numbers<Settings>();
+    const Settings settings = given_settings<Settings>();
+    const std::vector<double> laws = given_numbers<Settings>();
+    const std::size_t size = laws.size() / static_cast<std::size_t>(std::max(count, 1));
     const GroundMotion motion = driven(settings, of(number).motion);
     answer.clear();
     Response one;
-    for (const double mu : mus) {
-      if (!std::isnan(settings.mu_static)) settings.mu_static = std::max(settings.mu_static, mu);
-      settings.mu = mu;
-      const auto use = [&](const auto& law, const Mounting& on) {
-        one = settled(Slider(law, on), motion, is(settings.clipped), std::move(one));
+    for (std::size_t i = 0; i < laws.size(); i += size) {
+      const auto slide = [&](const auto& slider) {
+        one = settled(slider, motion, is(settings.clipped), std::move(one));
       };
       try {
-        with_law(settings, use);
+        std::visit(slide, slider_of(settings, std::span(laws).subspan(i, size)));
         answer.insert(answer.end(), {one.peak, std::abs(one.residual)});
       } catch (const std::invalid_argument&) {  // it slides under its own weight
         answer.insert(answer.end(), {undefined, undefined});
@@ -533,7 +530,7 @@ STICKSLIP_EXPORT(spectrum) int spectrum(int number) {
   });
 }
 
-/// Slides in the plane under both horizontal components; the input is the settings.
+/// Slides in the plane under both horizontal components; the input is the settings and the law.
 /// @return 0; `numbers` is the summary, whose residual is a distance, and then x and y at each sample [m]
 STICKSLIP_EXPORT(path) int path(int number) {
   return guarded([&] {
@@ -541,8 +538,8 @@ STICKSLIP_EXPORT(path) int path(int number) {
     const GroundMotion& record = of(number).motion;
     GroundMotion motion = is(settings.vertical) ? record : record.with_components(copy_of(record.transverse()));
     if (settings.scale != 1) motion = motion.scaled(settings.scale);
-    with_law(settings,
-             [&](const auto& law, const Mounting& on) { slide_in_plane(law, on, motion, is(settings.clipped)); });
+    std::visit([&](const auto& slider) { slide_in_plane(slider, motion, is(settings.clipped)); },
+               slider_of(settings, given_numbers<Settings>()));
     return 0;
   });
 }

@@ -21,9 +21,7 @@ EVERYWHERE = {
     "python/stickslip/__init__.py",
     "python/stickslip/_core.pyi",
     "python/stickslip/referee/adapters/own.py",  # the laws of the referee's problems
-    "web/bindings.cpp",  # the page offers some of the laws, by hand
-    "web/page/settings.js",
-    "web/page/library.js",
+    "web/page/settings.js",  # what the page shows of each law
     "web/tests/problems.py",
 }
 ALONE = {
@@ -103,18 +101,3 @@ def test_a_picture_names_the_parts_of_a_law_that_has_no_words():
         said = words.in_words({**sand, "natural_frequency": 2})
         assert said == ["slip level 1.00 g", "drag 0.300 1/s", "turns 2.00", "period 3.14 s"]
     assert words.in_words({"law": "typeinfo", "levels": [1, 2]}) == ["law from functions"]
-
-
-def test_the_page_numbers_its_laws_as_its_compiled_part_does():
-    def text(file):
-        return (ROOT / "web" / file).read_text(encoding="utf-8")
-
-    listed = re.search(r"enum Law \{ (.*?) \};", text("bindings.cpp"))[1]
-    names = listed.replace("_", "-").split(", ")
-    offered = re.search(r"export const LAWS = .*?\]\)", text("page/settings.js"), re.DOTALL)[0]
-    # Other objects than sliders, which have a kind, come after them.
-    assert re.findall(r'{ name: "([\w-]+)", label: "[^"]*" }', offered) == names
-    objects = re.findall(r'name: "([\w-]+)"', offered)
-    assert objects[: len(names)] == names
-    tried = re.search(r"^LAWS = \((.*?)^\)", text("tests/problems.py"), re.DOTALL | re.MULTILINE)[1]
-    assert re.findall(r'"([\w-]+)"', tried) == objects

@@ -30,7 +30,7 @@ export function showRemarks() {
   const say = (/** @type {HTMLElement} */ place, /** @type {HTMLInputElement} */ input, /** @type {Field} */ field) => {
     const found = unreadable.has(field.key)
       ? { text: `${field.label} must be a number`, refused: true }
-      : remark(field, full, (value) => inField(field, [value]), state.ranges);
+      : remark(field, full, (value) => inField(field, [value]), state);
     const scaled = field.key === "mus" && full.mus.join() !== typedMus().join() ? `scaled to ${full.mus.map(digits).join(", ")}` : "";
     place.textContent = found?.text ?? scaled;
     place.classList.toggle("wrong", found?.refused ?? false);

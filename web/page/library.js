@@ -1,28 +1,18 @@
 // The compiled library: what web/bindings.cpp, web/blocks.cpp and web/carts.cpp export, with JavaScript's types.
 
+import { isOneWay, LAWS } from "./settings.js";
+import { GRAVITY } from "./units.js";
+
 /** @import { Kind } from "./settings.js" */
 
 /**
- * What a slider is; the names are those of the command's options, SI units; NaN is not given.
- * @typedef {Object} Settings
- * @property {number} law            0 Coulomb, 1 caster, 2 one-way, 3 speed-dependent, 4 degrading, 5 Stribeck, 6 the bearing
- *   with several surfaces, 7 that of Kumar, which depends on pressure, speed and temperature; 8 a slender and 9 a rigid block; 10 a cart
- * @property {number} mu             coefficient of friction: at rest for the law 3, of a new surface for 4, at high speed for 5,
- *   the largest of all surfaces for 6, at high speed, 20 degrees Celsius and the reference pressure for 7; NaN for 8
- * @property {number} mu_static
- * @property {number} reach          [m]
- * @property {number} mu_fast
- * @property {number} rate           [s/m]
- * @property {number} mu_residual
- * @property {number} distance       [m]
- * @property {number} stribeck_speed  at which the static friction has fallen by 63 % of the difference [m/s]
- * @property {number} exponent
- * @property {number} static_pressure     under the weight alone [Pa]
- * @property {number} reference_pressure  [Pa]
- * @property {number} contact_radius      [m]
- * @property {number} temperature         at the start [degrees Celsius]
- * @property {number} diffusivity         of the steel [m^2/s]
- * @property {number} conductivity        of the steel [W/(m K)]
+ * What moves; the names are those of the command's options, SI units; NaN is not given. With the fields of the friction laws,
+ * which settings.js lists.
+ * @typedef {Record<string, any> & OfAll} Settings
+ * @typedef {Object} OfAll
+ * @property {number} law            the place in `LAWS` of settings.js
+ * @property {number} mu             coefficient of friction, where there are several as the hints of settings.js say: at rest, of a
+ *   new surface, at high speed, or the largest of all surfaces; NaN for a slender block
  * @property {number} period         [s]
  * @property {number} damping_ratio
  * @property {number} pendulum       1: the spring is a pendulum
@@ -44,9 +34,6 @@
  * @property {number} trail          of a caster [m]
  * @property {number} wheel_width    [m]
  * @property {number} rolling_mu     rolling resistance over the load
- * @property {readonly number[]} radii       of 2, 3 or 5 surfaces [m]
- * @property {readonly number[]} mus         their coefficients, in the ratios of which mu is the largest
- * @property {readonly number[]} capacities  their travels to the stops [m]; empty for none
  */
 
 /**
@@ -105,6 +92,18 @@
  * @property {string} [component]
  * @property {number} [dt]        [s]
  * @property {boolean} [gaps]
+ */
+
+/**
+ * A part of a friction law, as the library says it.
+ * @typedef {Object} Part
+ * @property {string} name
+ * @property {string} unit
+ * @property {number} size    in this unit, of 1 on the page: a level [m/s^2] is a coefficient of friction there
+ * @property {number} low     the least value, on the page
+ * @property {number} high    the largest value
+ * @property {boolean} open   the least value itself is not allowed
+ * @property {boolean} whole  it is a whole number
  */
 
 /**
@@ -193,6 +192,7 @@ export class Library {
       const [settings = [], summary = []] = this.#text().split("\n").map((line) => line.split(" "));
       return { settings, summary };
     };
+    this.laws = this.#laws();
     this.#names = { slider: names(wasm.names), block: names(wasm.block_names), cart: names(wasm.cart_names) };
   }
 
@@ -241,6 +241,21 @@ export class Library {
   #checked(answer) {
     if (answer < 0) throw new Error(this.#text());
     return answer;
+  }
+
+  /** The parts of each law, in the order of their numbers. @returns {Record<string, Part[]>} */
+  #laws() {
+    this.#wasm.laws();
+    const numbers = this.#numbers();
+    /** @type {Record<string, Part[]>} */
+    const laws = {};
+    for (const [i, line] of this.#text().trimEnd().split("\n").entries()) {
+      const [law = "", name = "", unit = ""] = line.split("\t");
+      const [low = NaN, high = NaN, open, whole] = numbers.slice(4 * i, 4 * i + 4);
+      const size = unit === "m/s^2" ? GRAVITY : 1;
+      (laws[law] ??= []).push({ name, unit, size, low: low / size, high: high / size, open: open === 1, whole: whole === 1 });
+    }
+    return laws;
   }
 
   /** @returns {Record<string, Range>} by their quantities */
@@ -376,9 +391,8 @@ export class Library {
     return this.#numbers();
   }
 
-  /** @param {Settings} settings  @param {Kind} kind */
-  #values(settings, kind = "slider") {
-    const values = /** @type {any} */ (settings);
+  /** @param {any} values  @param {Kind} kind */
+  #values(values, kind = "slider") {
     return Float64Array.from(this.#names[kind].settings, (name) => {
       const [key = "", place] = name.split(".");
       return Number(place === undefined ? values[key] : values[key][Number(place)]);
@@ -399,12 +413,30 @@ export class Library {
   }
 
   /**
+   * Gives the settings of a slider, and laws: the number of each, its level at rest, and its parts; before a list its length.
+   * @param {Settings} settings
+   * @param {readonly Settings[]} [each]  of a law
+   */
+  #giveSlider(settings, each = [settings]) {
+    const laws = each.flatMap((one) => {
+      const { law = "", parts } = LAWS[one.law] ?? {};
+      const given = parts?.(one) ?? {};
+      const numbers = (this.laws[law] ?? []).flatMap(({ name, size }) => {
+        const value = given[name] ?? NaN;
+        return typeof value === "number" ? size * value : [value.length, ...value.map((element) => size * element)];
+      });
+      return [Object.keys(this.laws).indexOf(law), GRAVITY * one.mu_static, ...numbers];
+    });
+    this.#giveBoth(this.#values({ ...settings, one_way: isOneWay(settings) ? 1 : 0 }), Float64Array.from(laws));
+  }
+
+  /**
    * @param {number} id
    * @param {Settings} settings
    * @returns {Summary}
    */
   slide(id, settings) {
-    this.#giveView(this.#values(settings));
+    this.#giveSlider(settings);
     this.#checked(this.#wasm.slide(id));
     return this.#named(this.#numbers());
   }
@@ -417,8 +449,10 @@ export class Library {
    * @param {Float64Array} mus
    */
   spectrum(id, settings, mus) {
-    this.#giveBoth(this.#values(settings), mus);
-    this.#checked(this.#wasm.spectrum(id));
+    const { mu_static, mus: of } = settings;
+    const scaled = (/** @type {number} */ mu) => of.map((/** @type {number} */ one) => one * (mu / Math.max(...of)));
+    this.#giveSlider(settings, Array.from(mus, (mu) => ({ ...settings, mu, mu_static: Math.max(mu_static, mu), mus: scaled(mu) })));
+    this.#checked(this.#wasm.spectrum(id, mus.length));
     const numbers = this.#numbers();
     return { peak: numbers.filter((_, i) => i % 2 === 0), residual: numbers.filter((_, i) => i % 2 === 1) };
   }
@@ -431,7 +465,7 @@ export class Library {
    *   samples [m]
    */
   path(id, settings) {
-    this.#giveView(this.#values(settings));
+    this.#giveSlider(settings);
     this.#checked(this.#wasm.path(id));
     const [numbers, first] = [this.#numbers(), this.#names.slider.summary.length];
     const every = (/** @type {number} */ from) =>

@@ -64,7 +64,7 @@ async function start() {
   showForm();
   showKind();
   showGenerator();
-  state.ranges = await worker.load(unpacked("library"));
+  Object.assign(state, await worker.load(unpacked("library")));
   if (!state.generator && (await showSample())) return;
   state.generator ??= GENERATORS[0];
   showGenerator();

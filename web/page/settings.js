@@ -1,28 +1,108 @@
 // What the page lets its reader choose: laws and mountings by the names of the command's options, the link that holds
 // them, and the command and the Python lines that give the same numbers.
 
-/** @import { Range, Settings } from "./library.js" */
+/** @import { Part, Range, Settings } from "./library.js" */
 /** @import { Source } from "./sources.js" */
 /** @import { Quantity } from "./units.js" */
 
-/** Settings in which nothing is given. @type {Settings} */
+/**
+ * @typedef {Object} Field
+ * @property {string} key
+ * @property {string} [part]          of the law, where it has another name
+ * @property {string} label
+ * @property {string} [unit]          where it is always the same
+ * @property {Quantity} [quantity]    whose chosen unit it has
+ * @property {readonly [number, number]} [valid]  least and largest value; any between is allowed; if not given, what the law allows
+ * @property {boolean} [open]         the least value itself is not allowed
+ * @property {string} [range]         the library's name of the range outside of which another unit is more probable
+ * @property {number | readonly number[]} [value]  where the law needs it and the link has none; a list, maybe empty, of a list
+ * @property {readonly string[]} [laws]  that have it; all if not given
+ * @property {readonly string[]} [choices]  whose number it is
+ * @property {readonly number[]} [counts]  of numbers of a list, if it must have one of them
+ * @property {string[]} [needs]  the settings without any of which it has no meaning
+ * @property {string} hint
+ */
+
+const FRICTION = /** @type {const} */ ({ valid: [0, Infinity], range: "coefficient of friction" });
+/** @type {Field} */
+const MU_STATIC = { key: "mu_static", label: "\u03bc static", ...FRICTION, hint: "at rest, at least \u03bc" };
+
+/** Whether its mounting keeps it from sliding backward; else an infinite level does, as the command has it. @param {Settings} s */
+export const isOneWay = (s) => LAWS[s.law]?.name === "one-way" && !(Number.isNaN(s.slope) && Number.isNaN(s.mu_static));
+
+/**
+ * What moves, in the order of the numbers: a slider, a block, or a cart; and the coefficient of friction with which it begins. Of
+ * a slider all that the page knows of its friction law: the name and the parts that the library gives it, with levels as coefficients
+ * of friction, the law in Python, the numbers beside mu, and whether the command has it.
+ * @typedef {"slider" | "block" | "cart"} Kind
+ * @typedef {Record<string, number | readonly number[]>} Parts
+ * @type {readonly {name: string, label: string, kind?: Kind, mu?: number, law?: string, parts?: (s: Settings) => Parts, python?: (s: Settings) => string, fields?: Field[], command?: boolean}[]}
+ */
+export const LAWS = Object.freeze([
+  { name: "coulomb", label: "Coulomb", law: "Coulomb", command: true, fields: [MU_STATIC],
+    parts: ({ mu }) => ({ slip_level: mu, backward: mu }),
+    python: ({ mu }) => `Coulomb(mu=${mu})` },
+  { name: "caster", label: "casters", law: "Caster", command: true, fields: [
+      { key: "reach", label: "reach", quantity: "length", range: "length", value: 0.05, hint: "distance over which the level falls" },
+      MU_STATIC ],
+    parts: ({ mu, reach }) => ({ slip_level: mu, reach, rolling: 0 }),
+    python: ({ mu, reach }) => `Caster(mu=${mu}, reach=${reach})` },
+  { name: "one-way", label: "one-way (Newmark)", law: "Coulomb", command: true, fields: [MU_STATIC],
+    parts: (s) => ({ slip_level: s.mu, backward: isOneWay(s) ? s.mu : Infinity }),
+    python: (s) => `Coulomb(mu=${s.mu}${isOneWay(s) ? "" : ', backward=float("inf")'})` },
+  { name: "speed", label: "speed-dependent", law: "VelocityDependent", fields: [
+      { key: "mu_fast", part: "fast", label: "\u03bc fast", range: "coefficient of friction", value: 0.15, hint: "at high speed; \u03bc is that at rest" },
+      { key: "rate", label: "rate", unit: "s/m", range: "rate", value: 20, hint: "of the change with the speed" },
+      MU_STATIC ],
+    parts: ({ mu, mu_fast, rate }) => ({ slow: mu, fast: mu_fast, rate }),
+    python: ({ mu, mu_fast, rate }) => `VelocityDependent(mu_slow=${mu}, mu_fast=${mu_fast}, rate=${rate})` },
+  { name: "degrading", label: "degrading", law: "Degrading", fields: [
+      { key: "mu_residual", part: "levels", label: "\u03bc residual", range: "coefficient of friction", value: 0.05, hint: "after the distance" },
+      { key: "distance", label: "distance", quantity: "length", valid: [0, Infinity], open: true, range: "distance slid", value: 0.1, hint: "slid until \u03bc is residual" },
+      MU_STATIC ],
+    parts: ({ mu, mu_residual, distance }) => ({ distances: [0, distance], levels: [mu, mu_residual], backward: [mu, mu_residual] }),
+    python: ({ mu, mu_residual, distance }) => `Degrading(distance=[0, ${distance}], mu=[${mu}, ${mu_residual}])` },
+  { name: "stribeck", label: "Stribeck", law: "Stribeck", fields: [
+      { key: "mu_static", part: "static", label: "\u03bc static", range: "coefficient of friction", value: 0.15, hint: "at rest, at least \u03bc, which is that at high speed" },
+      { key: "stribeck_speed", part: "velocity", label: "speed", quantity: "velocity", range: "sliding velocity", value: 0.05, hint: "at which 63 % of the difference is gone" },
+      { key: "exponent", label: "exponent", value: 1, hint: "a whole number from 1 to 31" } ],
+    parts: ({ mu, mu_static, stribeck_speed, exponent }) => ({ static: mu_static, kinetic: mu, velocity: stribeck_speed, exponent }),
+    python: (s) => `Stribeck(mu_static=${s.mu_static}, mu_kinetic=${s.mu}, velocity=${s.stribeck_speed}, exponent=${s.exponent})` },
+  { name: "pendulum", label: "multi-surface pendulum", law: "MultiPendulum", command: true, fields: [
+      { key: "radii", label: "radii", quantity: "length", range: "radius", counts: [2, 3, 5], value: [0.3937, 3.7465, 3.7465], hint: "effective; lower and upper, or inner, lower and upper outer, or inner, two middle, two outer" },
+      { key: "mus", part: "mu", label: "\u03bc of each", range: "coefficient of friction", value: [0.01, 0.04, 0.08], hint: "of the surfaces; the slider is the largest and scales all" },
+      { key: "capacities", label: "capacities", quantity: "length", range: "length", value: [], hint: "travel of each surface to its stop; empty for none" } ],
+    parts: ({ radii, mus, capacities, restitution }) =>
+      ({ radii, mu: mus, capacities: capacities.length ? capacities : radii.map(() => Infinity), restitution: restitution || 0, nested: radii.length > 2 ? 1 : 0 }),
+    python({ radii, mus, capacities, restitution }) {
+      const name = /** @type {Record<number, string>} */ ({ 2: "Double", 3: "Triple", 5: "Quintuple" })[radii.length] ?? "Multi";
+      const stops = capacities.length ? `, capacities=[${capacities.join(", ")}], restitution=${restitution}` : "";
+      return `${name}Pendulum(radii=[${radii.join(", ")}], mu=[${mus.join(", ")}]${stops})`;
+    } },
+  { name: "kumar", label: "pressure, speed, temperature (Kumar)", law: "KumarFriction", fields: [
+      { key: "static_pressure", label: "pressure", unit: "Pa", range: "pressure", value: 50e6, hint: "on the sliding surface under the weight alone" },
+      { key: "reference_pressure", label: "reference p", unit: "Pa", range: "pressure", value: 50e6, hint: "pressure at which \u03bc holds, at high speed and 20 \u00b0C" },
+      { key: "contact_radius", label: "contact radius", quantity: "length", range: "length", value: 0.2, hint: "of the slider, which heats the middle of the surface while it covers it" },
+      { key: "temperature", label: "temperature", unit: "\u00b0C", range: "temperature", value: 20, hint: "of the surface at the start" },
+      { key: "rate", label: "rate", unit: "s/m", range: "rate", value: 100, hint: "of the change with the speed; \u03bc at rest is half that at high speed" },
+      { key: "diffusivity", label: "diffusivity", unit: "m\u00b2/s", range: "diffusivity", value: 4.44e-6, hint: "thermal, of the steel" },
+      { key: "conductivity", label: "conductivity", unit: "W/(m K)", range: "conductivity", value: 18, hint: "thermal, of the steel" } ],
+    parts: ({ mu, ...others }) => ({ mu_ref: mu, ...others }),
+    python: (s) => `KumarFriction(mu_ref=${s.mu}, ${LAWS[s.law]?.fields?.map(({ key }) => `${key}=${s[key]}`).join(", ")})` },
+  { name: "slender-block", label: "slender block", kind: "block" },
+  { name: "rigid-block", label: "rigid block", kind: "block", mu: 0.5 },
+  { name: "cart", label: "cart on four casters", kind: "cart", mu: 0.5 },
+]);
+
+/** The settings of all laws that are lists, or numbers, none given. @param {boolean} lists */
+const settingsOfLaws = (lists) =>
+  Object.fromEntries(LAWS.flatMap(({ fields = [] }) => fields.flatMap(({ key, value }) => (value instanceof Array === lists ? [[key, lists ? Object.freeze([]) : NaN]] : []))));
+
+/** Settings in which nothing is given, in the order of a link. @type {Settings} */
 export const NOT_GIVEN = Object.freeze({
   law: 0,
   mu: NaN,
-  mu_static: NaN,
-  reach: NaN,
-  mu_fast: NaN,
-  rate: NaN,
-  mu_residual: NaN,
-  distance: NaN,
-  stribeck_speed: NaN,
-  exponent: NaN,
-  static_pressure: NaN,
-  reference_pressure: NaN,
-  contact_radius: NaN,
-  temperature: NaN,
-  diffusivity: NaN,
-  conductivity: NaN,
+  ...settingsOfLaws(false),
   period: NaN,
   damping_ratio: NaN,
   pendulum: 0,
@@ -44,30 +124,8 @@ export const NOT_GIVEN = Object.freeze({
   trail: NaN,
   wheel_width: NaN,
   rolling_mu: NaN,
-  radii: Object.freeze([]),
-  mus: Object.freeze([]),
-  capacities: Object.freeze([]),
+  ...settingsOfLaws(true),
 });
-
-/**
- * What moves, in the order of the numbers: a slider with its friction law, a block, or a cart; and the coefficient of friction
- * with which it begins.
- * @typedef {"slider" | "block" | "cart"} Kind
- * @type {readonly {name: string, label: string, kind?: Kind, mu?: number}[]}
- */
-export const LAWS = Object.freeze([
-  { name: "coulomb", label: "Coulomb" },
-  { name: "caster", label: "casters" },
-  { name: "one-way", label: "one-way (Newmark)" },
-  { name: "speed", label: "speed-dependent" },
-  { name: "degrading", label: "degrading" },
-  { name: "stribeck", label: "Stribeck" },
-  { name: "pendulum", label: "multi-surface pendulum" },
-  { name: "kumar", label: "pressure, speed, temperature (Kumar)" },
-  { name: "slender-block", label: "slender block", kind: "block" },
-  { name: "rigid-block", label: "rigid block", kind: "block", mu: 0.5 },
-  { name: "cart", label: "cart on four casters", kind: "cart", mu: 0.5 },
-]);
 
 /** @param {Settings} settings  @returns {Kind} */
 export const kindOf = ({ law }) => LAWS[law]?.kind ?? "slider";
@@ -78,29 +136,11 @@ export const hasMu = ({ law }) => LAWS[law]?.name !== "slender-block";
 /** The casters of a cart, in the order of their numbers. */
 const WHEELS = ["four casters", "one locked", "two locked", "all locked", "two fixed wheels behind"];
 
-/**
- * @typedef {Object} Field
- * @property {keyof Settings} key
- * @property {string} label
- * @property {string} [unit]          where it is always the same
- * @property {Quantity} [quantity]    whose chosen unit it has
- * @property {readonly [number, number]} valid    least and largest value; any between is allowed
- * @property {boolean} [open]         the least value itself is not allowed
- * @property {string} [range]         the library's name of the range outside of which another unit is more probable
- * @property {number | readonly number[]} [value]  where the law needs it and the link has none
- * @property {readonly string[]} [laws]  that have it; all if not given
- * @property {readonly string[]} [choices]  whose number it is
- * @property {number} [count]         of numbers of a list, if it must have so many
- * @property {(keyof Settings)[]} [needs]  the settings without any of which it has no meaning
- * @property {string} hint
- */
-
 /** @param {Kind} kind */
 const lawsOf = (kind) => LAWS.filter((one) => (one.kind ?? "slider") === kind).map(({ name }) => name);
 const [SLIDERS, BLOCKS, CARTS] = [lawsOf("slider"), lawsOf("block"), lawsOf("cart")];
 const SINGLE = SLIDERS.filter((name) => name !== "pendulum");
 
-const FRICTION = /** @type {const} */ ({ valid: [0, Infinity], range: "coefficient of friction" });
 const CART_LENGTH = /** @type {const} */ ({ quantity: "length", valid: [0, Infinity], open: true, range: "length of a cart", laws: CARTS });
 const LENGTH = /** @type {const} */ ({ quantity: "length", valid: [0, Infinity], open: true, range: "length" });
 /** What is above 0. @param {string} range */
@@ -111,25 +151,7 @@ export const MU = { key: "mu", label: "\u03bc", ...FRICTION, hint: "" };
 
 /** The numbers beside mu, in the order of the form. @type {readonly Field[]} */
 export const FIELDS = Object.freeze([
-  { key: "radii", label: "radii", quantity: "length", ...positive("radius"), value: [0.3937, 3.7465, 3.7465], laws: ["pendulum"], hint: "effective; lower and upper, or inner, lower and upper outer, or inner, two middle, two outer" },
-  { key: "mus", label: "\u03bc of each", ...FRICTION, value: [0.01, 0.04, 0.08], laws: ["pendulum"], hint: "of the surfaces; the slider is the largest and scales all" },
-  { key: "capacities", label: "capacities", ...LENGTH, laws: ["pendulum"], hint: "travel of each surface to its stop; empty for none" },
-  { key: "reach", label: "reach", ...LENGTH, value: 0.05, laws: ["caster"], hint: "distance over which the level falls" },
-  { key: "mu_fast", label: "\u03bc fast", ...FRICTION, value: 0.15, laws: ["speed"], hint: "at high speed; \u03bc is that at rest" },
-  { key: "rate", label: "rate", unit: "s/m", valid: [0, Infinity], range: "rate", value: 20, laws: ["speed"], hint: "of the change with the speed" },
-  { key: "mu_residual", label: "\u03bc residual", ...FRICTION, value: 0.05, laws: ["degrading"], hint: "after the distance" },
-  { key: "distance", label: "distance", quantity: "length", ...positive("distance slid"), value: 0.1, laws: ["degrading"], hint: "slid until \u03bc is residual" },
-  { key: "mu_static", label: "\u03bc static", ...FRICTION, value: 0.15, laws: ["stribeck"], hint: "at rest, at least \u03bc, which is that at high speed" },
-  { key: "stribeck_speed", label: "speed", quantity: "velocity", ...positive("sliding velocity"), value: 0.05, laws: ["stribeck"], hint: "at which 63 % of the difference is gone" },
-  { key: "exponent", label: "exponent", valid: [1, 31], value: 1, laws: ["stribeck"], hint: "a whole number from 1 to 31" },
-  { key: "static_pressure", label: "pressure", unit: "Pa", ...positive("pressure"), value: 50e6, laws: ["kumar"], hint: "on the sliding surface under the weight alone" },
-  { key: "reference_pressure", label: "reference p", unit: "Pa", ...positive("pressure"), value: 50e6, laws: ["kumar"], hint: "pressure at which \u03bc holds, at high speed and 20 \u00b0C" },
-  { key: "contact_radius", label: "contact radius", ...LENGTH, value: 0.2, laws: ["kumar"], hint: "of the slider, which heats the middle of the surface while it covers it" },
-  { key: "temperature", label: "temperature", unit: "\u00b0C", valid: [-273.15, Infinity], range: "temperature", value: 20, laws: ["kumar"], hint: "of the surface at the start" },
-  { key: "rate", label: "rate", unit: "s/m", valid: [0, Infinity], range: "rate", value: 100, laws: ["kumar"], hint: "of the change with the speed; \u03bc at rest is half that at high speed" },
-  { key: "diffusivity", label: "diffusivity", unit: "m\u00b2/s", ...positive("diffusivity"), value: 4.44e-6, laws: ["kumar"], hint: "thermal, of the steel" },
-  { key: "conductivity", label: "conductivity", unit: "W/(m K)", ...positive("conductivity"), value: 18, laws: ["kumar"], hint: "thermal, of the steel" },
-  { key: "mu_static", label: "\u03bc static", ...FRICTION, hint: "at rest, at least \u03bc", laws: ["coulomb", "caster", "one-way", "speed", "degrading"] },
+  ...LAWS.flatMap(({ name, fields = [] }) => fields.map((field) => ({ ...field, laws: [name] }))),
   { key: "period", label: "period", unit: "s", ...positive("period"), laws: SLIDERS, hint: "of the mass on its spring; empty without a spring" },
   { key: "damping_ratio", label: "damping ratio", valid: [0, Infinity], range: "damping ratio", laws: SLIDERS, needs: ["period"], hint: "of a damper beside the spring" },
   { key: "slope", label: "slope", unit: "degrees", valid: [-90, 90], range: "slope", laws: SINGLE, hint: "of the ground; downhill is forward" },
@@ -139,7 +161,7 @@ export const FIELDS = Object.freeze([
   { key: "height", label: "height", quantity: "length", ...positive(""), value: 2, laws: BLOCKS, hint: "of a uniform block" },
   { key: "restitution", label: "restitution", valid: [0, 1], laws: BLOCKS, hint: "rate of the rotation after an impact over that before; empty for that of Housner" },
   { key: "wheels", label: "wheels", valid: [0, 4], choices: WHEELS, laws: CARTS, hint: "a locked caster neither rolls nor swivels: the front right one, then the front left one, or all" },
-  { key: "headings", label: "headings", unit: "\u00b0", valid: [-360, 360], count: 4, value: [20, 110, -50, 160], laws: CARTS, hint: "of the casters at the start, front right, front left, rear right, rear left: from the wheel to the pivot, clockwise from the axis of the cart" },
+  { key: "headings", label: "headings", unit: "\u00b0", valid: [-360, 360], counts: [4], value: [20, 110, -50, 160], laws: CARTS, hint: "of the casters at the start, front right, front left, rear right, rear left: from the wheel to the pivot, clockwise from the axis of the cart" },
   { key: "base_length", label: "wheel base", ...CART_LENGTH, value: 0.6, hint: "between the casters, along the cart" },
   { key: "base_width", label: "track", ...CART_LENGTH, value: 0.4, hint: "between the casters, across the cart" },
   { key: "body_length", label: "length", ...CART_LENGTH, value: 0.8, hint: "of the outline of the cart" },
@@ -156,21 +178,24 @@ export const FIELDS = Object.freeze([
  * @param {Field} field
  * @param {Settings} settings
  * @param {(value: number) => string} shown  with its unit
- * @param {Record<string, Range>} ranges     of the library
+ * @param {{ranges: Record<string, Range>, laws: Record<string, Part[]>}} library  what it says of them, once it is there
  * @returns {{text: string, refused: boolean} | null}
  */
-export function remark({ key, label, valid: [least, most], open = false, range = "", count }, settings, shown, ranges) {
+export function remark({ key, part = key, label, valid, open = false, range = "", counts }, settings, shown, { ranges, laws }) {
   const value = settings[key];
-  if (count !== undefined && value instanceof Array && value.length !== count)
-    return { text: `${label} must be ${count} numbers, got ${value.length}`, refused: true };
-  const low = key === "mu_static" ? Math.max(least, settings.mu) : least; // at rest friction is at least that in motion
+  if (counts && value instanceof Array && !counts.includes(value.length))
+    return { text: `${label} must be ${counts.join(", ").replace(/, (\d+)$/, " or $1")} numbers, got ${value.length}`, refused: true };
+  const limits = { low: -Infinity, high: Infinity, open, whole: false };
+  if (valid) [limits.low, limits.high] = valid;
+  else Object.assign(limits, laws[LAWS[settings.law]?.law ?? ""]?.find(({ name }) => name === part));
+  if (key === "mu_static") limits.low = Math.max(limits.low, settings.mu); // at rest friction is at least that in motion
+  const { low, high, whole } = limits;
   for (const one of typeof value === "number" ? [value] : value) {
     if (Number.isNaN(one) && key !== "mu") continue; // not given
-    const whole = key !== "exponent" || Number.isInteger(one);
-    if (!(one >= low && one <= most && Number.isFinite(one) && whole) || (open && one === low)) {
-      const range = most < Infinity ? `between ${shown(low)} and ${shown(most)}` : low > -Infinity ? `${open ? "above" : "at least"} ${shown(low)}` : "a number";
+    if (!(one >= low && one <= high && Number.isFinite(one) && (!whole || Number.isInteger(one))) || (limits.open && one === low)) {
+      const allowed = high < Infinity ? `between ${shown(low)} and ${shown(high)}` : low > -Infinity ? `${limits.open ? "above" : "at least"} ${shown(low)}` : "a number";
       const got = Number.isNaN(one) ? "" : `, got ${shown(one)}`;
-      return { text: `${label} must be ${key === "exponent" ? "a whole number " : ""}${range}${got}`, refused: true };
+      return { text: `${label} must be ${whole ? "a whole number " : ""}${allowed}${got}`, refused: true };
     }
     const { bounds: [small, large] = [0, Infinity], usual: [from, to] = [0, 0], meant = 0, where = "" } = ranges[range] ?? {};
     if (one > 0 && one < meant && (one < small || one >= large))
@@ -339,8 +364,6 @@ export const described = (s, shown) =>
     ...(s.scale === 1 ? [] : [`scaled by ${s.scale}`]),
   ].join(", ");
 
-const COMMAND_LAWS = ["coulomb", "caster", "one-way", "pendulum"];
-
 /**
  * The command that gives the same numbers; null if it has no option for a setting.
  * @param {Settings} settings
@@ -348,8 +371,8 @@ const COMMAND_LAWS = ["coulomb", "caster", "one-way", "pendulum"];
  * @returns {string | null}
  */
 export function command(settings, source) {
-  const law = LAWS[settings.law]?.name ?? "";
-  if (source.files.length === 0 || !COMMAND_LAWS.includes(law) || settings.pendulum) return null;
+  const { name: law = "", command: has = false } = LAWS[settings.law] ?? {};
+  if (source.files.length === 0 || !has || settings.pendulum) return null;
   const words = ["stickslip slide", ...record(source), "--mu", ...(law === "pendulum" ? settings.mus : [settings.mu])];
   if (law !== "coulomb") words.push("--law", law);
   for (const key of /** @type {const} */ (["radii", "capacities"]))
@@ -386,35 +409,15 @@ export function pathCommand(settings, source) {
  * @param {Settings} s
  */
 function slider(s) {
-  const law = LAWS[s.law]?.name ?? "";
-  let oneWay = law === "one-way";
-  let friction = `ss.Coulomb(mu=${s.mu})`;
-  if (law === "caster") friction = `ss.Caster(mu=${s.mu}, reach=${s.reach})`;
-  if (law === "speed") friction = `ss.VelocityDependent(mu_slow=${s.mu}, mu_fast=${s.mu_fast}, rate=${s.rate})`;
-  if (law === "degrading")
-    friction = `ss.Degrading(distance=[0, ${s.distance}], mu=[${s.mu}, ${s.mu_residual}])`;
-  if (law === "stribeck")
-    friction = `ss.Stribeck(mu_static=${s.mu_static}, mu_kinetic=${s.mu}, velocity=${s.stribeck_speed}, exponent=${s.exponent})`;
-  if (law === "kumar") {
-    const parts = /** @type {const} */ (["static_pressure", "reference_pressure", "contact_radius", "temperature", "rate", "diffusivity", "conductivity"]);
-    friction = `ss.KumarFriction(mu_ref=${s.mu}, ${parts.map((key) => `${key}=${s[key]}`).join(", ")})`;
-  }
-  if (law === "pendulum") {
-    const name = { 2: "Double", 3: "Triple", 5: "Quintuple" }[s.radii.length] ?? "Multi";
-    const stops = s.capacities.length ? `, capacities=[${s.capacities.join(", ")}], restitution=${s.restitution}` : "";
-    friction = `ss.${name}Pendulum(radii=[${s.radii.join(", ")}], mu=[${s.mus.join(", ")}]${stops})`;
-  }
-  if (oneWay && Number.isNaN(s.slope) && Number.isNaN(s.mu_static)) {
-    friction = `ss.Coulomb(mu=${s.mu}, backward=float("inf"))`;
-    oneWay = false;
-  }
-  if (!Number.isNaN(s.mu_static) && law !== "stribeck") friction = `ss.StaticKinetic(${friction}, mu_static=${s.mu_static})`;
+  const { python, fields } = LAWS[s.law] ?? {};
+  const law = `ss.${python?.(s)}`;
+  const friction = fields?.includes(MU_STATIC) && !Number.isNaN(s.mu_static) ? `ss.StaticKinetic(${law}, mu_static=${s.mu_static})` : law;
   const mounting = [friction];
   if (!Number.isNaN(s.period)) mounting.push(`period=${s.period}`);
   if (!Number.isNaN(s.damping_ratio)) mounting.push(`damping_ratio=${s.damping_ratio}`);
   if (s.pendulum) mounting.push("pendulum=True");
   if (!Number.isNaN(s.slope)) mounting.push(`slope_degrees=${s.slope}`);
-  if (oneWay) mounting.push("one_way=True");
+  if (isOneWay(s)) mounting.push("one_way=True");
   if (!Number.isNaN(s.stop_gap)) mounting.push(`stops=ss.Stops(gap=${s.stop_gap}, restitution=${s.restitution})`);
   return `ss.Slider(${mounting.join(", ")})`;
 }

@@ -5,7 +5,7 @@ import { element } from "./dom.js";
 import { completed, fromLink, toLink } from "./settings.js";
 import { GENERATORS } from "./sources.js";
 
-/** @import { Range, Settings } from "./library.js" */
+/** @import { Part, Range, Settings } from "./library.js" */
 /** @import { Stated } from "./metadata.js" */
 /** @import { Source } from "./sources.js" */
 /** @import { Choice, Quantity } from "./units.js" */
@@ -16,7 +16,7 @@ import { GENERATORS } from "./sources.js";
 /** @import { Line } from "./tables.js" */
 /** @import { Joined, Motion } from "./worker.js" */
 
-export const GRAVITY = 9.80665;
+export { GRAVITY } from "./units.js";
 
 export const NO_COMMAND = "The command has no option for this; the lines in Python give the same numbers.";
 
@@ -115,6 +115,7 @@ export const objects = /** @type {any} */ ({}); // each by its own file
  * @property {import("./sources.js").Generator | undefined} generator
  * @property {Row | null} generated           the motion of the generator is one row, which changes with its numbers
  * @property {string} broken                  why there is no response to the settings; empty if there may be one
+ * @property {Record<string, Part[]>} laws    the parts of the friction laws
  * @property {Record<string, Range>} ranges   beyond which another unit is more probable
  * @property {number} lastChange              when it was [ms]
  * @property {number} changes                 how many there were
@@ -129,6 +130,7 @@ export const state = {
   generator: GENERATORS.find((one) => one.name === others.motion),
   generated: null,
   broken: "",
+  laws: {},
   ranges: {},
   lastChange: 0,
   changes: 0,

@@ -6,7 +6,7 @@
  * @property {number} size  in SI units
  */
 
-const GRAVITY = 9.80665;
+export const GRAVITY = 9.80665;
 
 /** @type {Record<"length" | "acceleration" | "velocity" | "time" | "temperature" | "angle" | "rate" | "side" | "none", Record<string, Unit>>} */
 export const UNITS = {

@@ -89,7 +89,7 @@ const calls = {
   /** @param {Uint8Array<ArrayBuffer>} bytes */
   async load(bytes) {
     library = await Library.load(bytes);
-    return library.ranges();
+    return { laws: library.laws, ranges: library.ranges() };
   },
 
   /**

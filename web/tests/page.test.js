@@ -430,6 +430,18 @@ test("what is wrong or hard to believe says so beside its field, and no old numb
   assert.notEqual(first, 0);
   await open("mu=0.08&law=pendulum&radii=0.3937 37.465 37.465");
   assert.match(await page.$eval("#fields [data-key=radii] .remark", (one) => one.textContent ?? ""), /^3746\.5 cm is outside 20 cm to 800 cm, the range of dishes/);
+  // What the library says of the parts of a law.
+  for (const [law = "", key = "", text = "", wrong = ""] of [
+    ["kumar", "temperature", "-150", "temperature must be between -100 \u00b0C and 400 \u00b0C, got -150 \u00b0C"],
+    ["stribeck", "exponent", "1.5", "exponent must be a whole number between 1 and 31, got 1.5"],
+    ["speed", "mu_fast", "-1", "\u03bc fast must be at least 0, got -1"],
+    ["pendulum", "mus", "0 0.1 0.1", "\u03bc of each must be above 0, got 0"],
+    ["pendulum", "radii", "40 50 60 70", "radii must be 2, 3 or 5 numbers, got 4"],
+  ]) {
+    await open(`law=${law}`);
+    await enter(`#fields [data-key=${key}] input`, text);
+    assert.equal(await textOf("trouble"), wrong);
+  }
   // The generator, in its unit.
   await open("motion=pulse");
   await enter("#generator-values input", "50");

@@ -12,10 +12,7 @@ from typing import Any
 import numpy as np
 import stickslip as ss
 
-LAWS = (
-    *("coulomb", "caster", "one-way", "speed", "degrading", "stribeck", "pendulum", "kumar"),
-    *("slender-block", "rigid-block", "cart"),
-)
+LAWS = ("coulomb", "caster", "one-way", "speed", "degrading", "stribeck", "pendulum")
 PLANAR = ("coulomb", "speed", "degrading", "stribeck", "kumar")
 KUMAR = (
     "static_pressure",
@@ -35,29 +32,29 @@ def settings(rng: np.random.Generator, number: int) -> dict[str, Any]:
     def chance(probability: float) -> bool:
         return bool(rng.random() < probability)
 
-    law = int(rng.integers(LAWS.index("kumar")))
+    law = LAWS[int(rng.integers(len(LAWS)))]
     if number % 50 == 49:  # few, because they take long
-        law = LAWS.index("kumar")
+        law = "kumar"
     mu = float(rng.uniform(0.02, 0.3))
     given = {"law": law, "mu": mu, "scale": float(rng.choice([1.0, -1.0, rng.uniform(0.5, 2)]))}
     if chance(0.3):
         given["mu_static"] = mu * float(rng.uniform(1, 1.5))
-    if LAWS[law] == "caster":
+    if law == "caster":
         given["reach"] = float(rng.uniform(0.02, 0.5))
-    if LAWS[law] == "speed":
+    if law == "speed":
         given |= {"mu_fast": mu * float(rng.uniform(0.5, 2)), "rate": float(rng.uniform(1, 60))}
-    if LAWS[law] == "degrading":
+    if law == "degrading":
         given |= {
             "mu_residual": mu * float(rng.uniform(0.3, 1)),
             "distance": float(rng.uniform(0.01, 0.3)),
         }
-    if LAWS[law] == "stribeck":
+    if law == "stribeck":
         given |= {
             "mu_static": mu * float(rng.uniform(1, 2)),
             "stribeck_speed": float(rng.uniform(0.01, 0.2)),
             "exponent": float(rng.integers(1, 4)),
         }
-    if LAWS[law] == "kumar":
+    if law == "kumar":
         given.pop("mu_static", None)
         given |= {
             "static_pressure": float(rng.uniform(5e6, 60e6)),
@@ -68,7 +65,7 @@ def settings(rng: np.random.Generator, number: int) -> dict[str, Any]:
             "diffusivity": 4.44e-6,
             "conductivity": float(rng.uniform(10, 40)),
         }
-    if LAWS[law] == "pendulum":
+    if law == "pendulum":
         given.pop("mu_static", None)
         surfaces = int(rng.choice([2, 3, 5]))
         radii = np.cumsum(rng.uniform(0.3, 1.5, size=surfaces))
@@ -84,8 +81,8 @@ def settings(rng: np.random.Generator, number: int) -> dict[str, Any]:
         given["period"] = float(rng.uniform(0.5, 5))
         if chance(0.5):
             given["damping_ratio"] = float(rng.uniform(0, 0.3))
-        given["pendulum"] = float(LAWS[law] != "pendulum" and chance(0.5))
-    elif LAWS[law] in ("coulomb", "one-way") and chance(0.3):
+        given["pendulum"] = float(law != "pendulum" and chance(0.5))
+    elif law in ("coulomb", "one-way") and chance(0.3):
         given["slope"] = math.degrees(math.atan(mu)) * float(rng.uniform(0, 0.95))
     if chance(0.2):
         given |= {
@@ -99,7 +96,7 @@ def settings(rng: np.random.Generator, number: int) -> dict[str, Any]:
 
 def slider(given: dict[str, Any]) -> ss.Slider:
     """The slider of the settings, as the page writes it in Python."""
-    mu, law = given["mu"], LAWS[int(given["law"])]
+    mu, law = given["mu"], given["law"]
     mounting = {}
     one_way = law == "one-way"
     if law == "caster":
@@ -197,7 +194,7 @@ def problem(number: int) -> dict:
     contact = "clipped" if given["clipped"] else "flight"
     scaled = ground.scaled(given["scale"])
     axis = ss.GroundMotion(scaled.acceleration, scaled.dt, vertical=scaled.vertical)
-    planar = LAWS[int(given["law"])] in PLANAR
+    planar = given["law"] in PLANAR
     return {
         "settings": given,
         "dt": ground.dt,
@@ -300,13 +297,13 @@ def block_problem(number: int) -> dict:
     rng = np.random.default_rng([20260102, number])
     width = float(rng.uniform(0.2, 1))
     given = {
-        "law": LAWS.index("slender-block"),
+        "law": "slender-block",
         "width": width,
         "scale": float(rng.uniform(0.5, 2)),
     }
     given["height"] = width * float(rng.uniform(1.5, 6))
     if number % 2:
-        given |= {"law": LAWS.index("rigid-block"), "mu": float(rng.uniform(0.1, 0.9))}
+        given |= {"law": "rigid-block", "mu": float(rng.uniform(0.1, 0.9))}
     if rng.random() < 0.5:
         given["restitution"] = float(rng.uniform(0.3, 0.95))
     given["vertical"] = float(rng.random() < 0.3)
@@ -319,7 +316,7 @@ def block_problem(number: int) -> dict:
 def cart_problem(number: int) -> dict:
     rng = np.random.default_rng([20260103, number])
     given = {
-        "law": LAWS.index("cart"),
+        "law": "cart",
         "scale": float(rng.uniform(0.5, 1.5)),
         "wheels": float(number % 5),
         "mu": float(rng.uniform(0.2, 0.8)),

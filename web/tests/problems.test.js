@@ -12,9 +12,11 @@ const library = await Library.load(readFileSync(new URL("stickslip.wasm", build)
 
 /** Ten significant digits, of a value or of what it is a difference of. */
 const DIGITS = 1e-10;
-const KUMAR = LAWS.findIndex((law) => law.name === "kumar");
 /** A decision nearer than this hangs on round-off. */
 const DECIDED = 1e-9;
+
+/** @param {any} given  with the name of the law */
+const settingsOf = (given) => ({ ...NOT_GIVEN, ...given, law: LAWS.findIndex(({ name }) => name === given.law) });
 
 /**
  * Whether round-off decides: some decision is nearer than it.
@@ -49,6 +51,20 @@ function agreeInMargin(found, answer, named) {
   assert.ok(margin === native || Math.abs(margin - native) <= 1e-9, `margin of ${named}: ${margin}, natively ${native}`);
 }
 
+test("the page offers each law of the library, by its parts and in their units", () => {
+  assert.deepEqual(new Set(LAWS.flatMap(({ law }) => law ?? [])), new Set(Object.keys(library.laws)));
+  const quantities = { "m/s^2": "", m: "length", "m/s": "velocity", "m^2/s": "m\u00b2/s", "degrees Celsius": "\u00b0C" };
+  for (const { law = "", parts, fields = [] } of LAWS) {
+    const of = library.laws[law] ?? [];
+    for (const { name } of of) assert.ok(name in (parts?.(NOT_GIVEN) ?? {}), `${law}: ${name}`);
+    for (const { key, part = key, unit = "", quantity, valid } of fields) {
+      const found = of.find(({ name }) => name === part);
+      assert.ok(valid ?? found, `${law}: ${part}`);
+      if (found) assert.equal(quantity ?? unit, /** @type {any} */ (quantities)[found.unit] ?? found.unit, `${law}: ${part}`);
+    }
+  }
+});
+
 for (const where of /** @type {const} */ (["axis", "plane"])) {
   const chosen = problems.filter((/** @type {any} */ one) => one[where]);
   test(`${chosen.length} random problems agree with the native library, ${where}`, (context) => {
@@ -59,7 +75,7 @@ for (const where of /** @type {const} */ (["axis", "plane"])) {
         transverse: Float64Array.from(problem.transverse),
         vertical: Float64Array.from(problem.vertical ?? []),
       });
-      const settings = { ...NOT_GIVEN, ...problem.settings };
+      const settings = settingsOf(problem.settings);
       const slide = (factor = 1) => {
         const scaled = { ...settings, scale: factor * settings.scale };
         if (where === "plane") {
@@ -88,9 +104,9 @@ for (const where of /** @type {const} */ (["axis", "plane"])) {
         assert.deepEqual([peak[0], residual[0]], [found.peak, Math.abs(found.residual)]);
         agreeInMargin(found, answer, named);
         // The steps of Kumar's law are as long as an error of 1e-7 allows, and hang on the last bits in that.
-        const digits = problem.settings.law === KUMAR ? 1e-8 : DIGITS;
+        const digits = problem.settings.law === "kumar" ? 1e-8 : DIGITS;
         assert.ok(off <= digits && late <= digits, `${named} differs by ${off}, its times by ${late}`);
-        if (problem.settings.law !== KUMAR) [worst, latest] = [Math.max(worst, off), Math.max(latest, late)];
+        if (problem.settings.law !== "kumar") [worst, latest] = [Math.max(worst, off), Math.max(latest, late)];
       } else if (off <= DIGITS) {
         agreeInMargin(found, answer, named);
         [worst, latest] = [Math.max(worst, off), Math.max(latest, late)];
@@ -144,7 +160,7 @@ for (const [name, chosen, run, counts, sizes] of OTHERS)
         transverse: Float64Array.from(transverse),
         vertical: Float64Array.from(vertical ?? []),
       });
-      const settings = { ...NOT_GIVEN, ...given };
+      const settings = settingsOf(given);
       if (answer.error !== undefined) {
         refused++;
         assert.throws(() => run(id, settings), { message: answer.error }, named);
