@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ._core import StructureResponse, build_info
 from ._optional import optional
 from ._tables import (
+    Columns,
     frame_of,
     has_drifts,
     has_floors,
@@ -21,6 +22,7 @@ from ._tables import (
     loop_rows,
     write_csv,
 )
+from ._tabular import Tabular
 from ._text import printable
 
 if TYPE_CHECKING:
@@ -28,7 +30,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Modes:
+class Modes(Tabular):
     """The modes of a structure on a fixed base, in order of frequency.
 
     Attributes
@@ -43,6 +45,12 @@ class Modes:
         participation squared [kg]; with `from_modes`, the mass fractions.
     shapes : ndarray, shape (floors, n)
         One column per mode, with shape' M shape = 1.
+
+    Notes
+    -----
+    Objects compare by content. Tables have one row per mode, counted from 1: columns `mode`,
+    `frequency` [rad/s], `period` [s], `damping_ratio`, `participation`, `effective_mass` and
+    `cumulative_mass`, the fraction of the mass of all modes up to this one.
     """
 
     frequencies: NDArray[np.float64]
@@ -51,26 +59,18 @@ class Modes:
     effective_masses: NDArray[np.float64]
     shapes: NDArray[np.float64]
 
+    def __repr__(self) -> str:
+        count = len(self.frequencies)
+        first = f", first period {self.periods.max():.4g} s" if count else ""
+        return f"<Modes: {count} mode{'' if count == 1 else 's'}{first}>"
+
     @property
     def periods(self) -> NDArray[np.float64]:
         """2 pi / w [s], shape (n,); infinite for a rigid-body mode."""
         with np.errstate(divide="ignore"):
             return 2 * np.pi / self.frequencies
 
-    def to_dataframe(self) -> Any:
-        """Convert to a pandas DataFrame with one row per mode, counted from 1.
-
-        Returns
-        -------
-        DataFrame
-            Columns frequency [rad/s], period [s], damping_ratio, participation, effective_mass and
-            cumulative_mass, the fraction of the mass of all modes up to this one.
-
-        Raises
-        ------
-        ImportError
-            pandas is not installed.
-        """
+    def _table(self) -> tuple[Columns, dict[str, str]]:
         mass = self.effective_masses
         columns = {
             "mode": np.arange(1, len(mass) + 1),
@@ -81,8 +81,21 @@ class Modes:
             "effective_mass": mass,
             "cumulative_mass": np.cumsum(mass) / np.sum(mass),
         }
-        units = {"frequency": "rad/s", "period": "s"}
-        return frame_of(columns, units, "Modes.to_dataframe", index="mode")
+        return columns, {"frequency": "rad/s", "period": "s"}
+
+    def to_dataframe(self) -> Any:
+        """Convert to a pandas DataFrame over the mode, with the units in ``attrs["units"]``.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        ImportError
+            pandas is missing.
+        """
+        return frame_of(*self._table(), "Modes.to_dataframe", index="mode")
 
     def plot(self, *, figure: FigureBase | None = None, title: str | None = None) -> Figure:
         """Plot the shapes of the first modes by height.

@@ -211,7 +211,7 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
     def __repr__(self) -> str:
         columns = ", ".join(self._metadata)
         records = "record" if len(self) == 1 else "records"
-        return f"Suite({len(self)} {records}{f', with {columns}' if columns else ''})"
+        return f"<Suite: {len(self)} {records}{f', with {columns}' if columns else ''}>"
 
     # ---- properties of the motions
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from .._core import Cart, CartResponse, FixedWheel, SwivelCaster
 from ..carts.casters import swivels
-from .figures import Place, new_figure
+from .figures import Place, given_or_new, new_figure
 from .planar import make_square, name_directions
 from .player import Film, Group
 from .styles import AT_RIGHT, BLUE, GRAY, INK, LATER, VERMILION, put_title, style
@@ -75,7 +75,7 @@ def plot_cart_response(
         With these axes: the map, the displacement [m], and the yaw [rad].
     """
     with style():
-        figure = figure or new_figure(7, 8.5)
+        figure = given_or_new(figure, 7, 8.5)
         plan, way, turn = figure.subplots(3, height_ratios=(3.2, 1, 1))
         turn.sharex(way)
         put_title(plan, response.motion, title, with_remark(describe_cart(response.cart), response))

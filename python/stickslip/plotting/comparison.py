@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure, FigureBase
 
 from .._core import Ensemble, Moments
-from .figures import Place, new_figure
+from .figures import Place, given_or_new
 from .styles import COLORS, GRAY, INK, draw_band, put_figure_title, put_note, style
 from .words import describe_ensemble, unit_for
 
@@ -70,7 +70,7 @@ def plot_comparison(
     """
     e = comparison.ensemble
     with style():
-        figure = figure or new_figure(9, 4.4)
+        figure = given_or_new(figure, 9, 4.4)
         put_figure_title(figure, title or describe_ensemble(e))
         for axes, name, part in zip(
             figure.subplots(1, 2),

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 
 from .._text import printable
-from .figures import new_figure
+from .figures import check_axes, new_figure
 from .styles import BLUE, GRAY, INK, PALE, VERMILION, style, wrapped
 from .words import digits
 
@@ -39,6 +39,7 @@ def plot_orientations(
             figure = new_figure(5, 5)
             axes: Any = figure.add_subplot(projection="polar")
         else:
+            check_axes(ax)
             axes = ax
         polar = axes.name == "polar"
         degrees, curves = _whole_turn(table) if polar else _sorted(table)

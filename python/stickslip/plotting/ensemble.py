@@ -10,7 +10,7 @@ from matplotlib.figure import Figure, FigureBase
 
 from .._core import Ensemble
 from ..ensemble.tables import impact_probabilities
-from .figures import Place, new_figure
+from .figures import Place, given_or_new
 from .styles import BLUE, GRAY, PALE, VERMILION, draw_band, put_figure_title, put_note, style
 from .words import describe_ensemble, digits, unit_for, with_error
 
@@ -53,14 +53,14 @@ def plot_ensemble(
         return _plot_in_plane(e, figure, title)
     if t.size == 0:
         with style():
-            figure = figure or new_figure(6, 4)
+            figure = given_or_new(figure, 6, 4)
             put_figure_title(figure, title or describe_ensemble(e))
             _draw_peaks(figure.subplots(), e)
         return figure
     s = e.stationary
     has_spectrum = e.configuration["velocity_spectrum"]
     with style():
-        figure = figure or new_figure(9, 6)
+        figure = given_or_new(figure, 9, 6)
         layout = [["way", "peaks"], ["speed", "spectrum" if has_spectrum else "peaks"]]
         axes = figure.subplot_mosaic(layout)
         way, speed, peaks = axes["way"], axes["speed"], axes["peaks"]
@@ -103,7 +103,7 @@ def _plot_in_plane(e: Ensemble, figure: FigureBase | None, title: str | None) ->
     """Plot the variances and the covariance of the displacement vector, and the peaks."""
     t = e.time
     with style():
-        figure = figure or new_figure(9, 4)
+        figure = given_or_new(figure, 9, 4)
         put_figure_title(figure, title or describe_ensemble(e))
         variances, peaks = figure.subplots(1, 2)
         length, unit = unit_for(np.sqrt(e.displacement_variance.max()))

@@ -84,6 +84,21 @@ def new_figure(width: float, height: float) -> Figure:
     return figure
 
 
+def given_or_new(figure: FigureBase | None, width: float, height: float) -> FigureBase:
+    """The figure of a picture: the one given, or a new one of a given size [inches]."""
+    if figure is None:
+        return new_figure(width, height)
+    if not isinstance(figure, FigureBase):
+        raise TypeError(f"plot: figure must be a matplotlib Figure or SubFigure, got {figure!r}")
+    return figure
+
+
+def check_axes(ax: object) -> None:
+    """TypeError for what is no Axes."""
+    if not isinstance(ax, Axes):
+        raise TypeError(f"plot: ax must be a matplotlib Axes, got {ax!r}")
+
+
 def one_panel(
     who: str, figure: FigureBase | None, ax: Axes | None, width: float, height: float
 ) -> tuple[FigureBase, Axes]:
@@ -91,8 +106,9 @@ def one_panel(
     if ax is not None:
         if figure is not None:
             raise ValueError(f"{who}: give figure or ax, got both")
+        check_axes(ax)
         return ax.figure, ax
-    figure = figure or new_figure(width, height)
+    figure = given_or_new(figure, width, height)
     return figure, figure.subplots()
 
 

@@ -11,7 +11,7 @@ from matplotlib.text import OffsetFrom
 
 from .. import _core
 from .._core import GroundMotion, PlanarResponse
-from .figures import Place, new_figure
+from .figures import Place, given_or_new
 from .panels import shade_sticks
 from .styles import AT_RIGHT, BLUE, GRAY, INK, VERMILION, put_title, style
 from .trajectory import sticks, window
@@ -74,7 +74,7 @@ def plot_planar_response(
     """
     begin, finish = window("plot_planar_response", response, time)
     with style():
-        figure = figure or new_figure(7, 8.5)
+        figure = given_or_new(figure, 7, 8.5)
         plan, axis, transverse = figure.subplots(3, height_ratios=(3.2, 1, 1))
         transverse.sharex(axis)
         t, place = path_of(response)

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure, FigureBase
 
 from .._core import Response
-from .figures import Place, new_figure
+from .figures import Place, given_or_new
 from .panels import (
     draw_gap,
     draw_ground,
@@ -100,7 +100,7 @@ def plot_response(
     lifted = response.contact == "flight" and response.gap.max() > _LIFTED
     more = 0 if "vertical" not in response.components else 2 if lifted else 1
     with style():
-        figure = figure or new_figure(7, 6 + 1.4 * more)
+        figure = given_or_new(figure, 7, 6 + 1.4 * more)
         ground, speed, way, *below = figure.subplots(
             3 + more, sharex=True, height_ratios=(1, 1, 1.25, 0.8, 0.8)[: 3 + more]
         )
@@ -200,7 +200,7 @@ def plot_responses(
             f" {len(labels)}"
         )
     with style():
-        figure = figure or new_figure(7, 5)
+        figure = given_or_new(figure, 7, 5)
         ground, way = figure.subplots(2, sharex=True, height_ratios=(1, 1.7))
         length, unit = unit_for(max(r.peak for r in responses))
         put_title(ground, responses[0].motion)

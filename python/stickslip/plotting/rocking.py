@@ -10,7 +10,7 @@ from matplotlib.patches import Polygon
 from numpy.typing import NDArray
 
 from .._core import STANDARD_GRAVITY, RockingBlock, RockingResponse, SlenderBlock
-from .figures import Place, new_figure
+from .figures import Place, given_or_new, new_figure
 from .panels import draw_ground
 from .player import Film, Group
 from .styles import AT_RIGHT, BLUE, GRAY, INK, PALE, VERMILION, put_title, style
@@ -92,7 +92,7 @@ def plot_rocking_response(
     block = response.block
     with style():
         rigid = isinstance(block, RockingBlock)
-        figure = figure or new_figure(7, 6 if rigid else 4.5)
+        figure = given_or_new(figure, 7, 6 if rigid else 4.5)
         ratios = (1, 1.5, 1) if rigid else (1, 1.5)
         ground, tilt, *others = figure.subplots(len(ratios), sharex=True, height_ratios=ratios)
         put_title(ground, response.motion, title, with_remark(describe_block(block), response))
@@ -173,7 +173,7 @@ def plot_rocking_phase(
     """
     block = response.block
     with style():
-        figure = figure or new_figure(6, 4.5)
+        figure = given_or_new(figure, 6, 4.5)
         axes = figure.subplots()
         _, theta, rate = _motion(response)
         way = np.where(theta != 0, theta, rate)
@@ -271,7 +271,7 @@ def plot_rocking_spectrum(
 ) -> Any:
     """Plot a rocking spectrum; see `RockingSpectrum.plot`."""
     with style():
-        figure = figure or new_figure(6, 3.5)
+        figure = given_or_new(figure, 6, 3.5)
         axes = figure.subplots()
         stands = spectrum.overturned == 0
         ratio = np.where(stands, spectrum.peak_rotation_ratio, np.nan)
@@ -308,7 +308,7 @@ def plot_overturning(
     matplotlib Figure or SubFigure
     """
     with style():
-        figure = figure or new_figure(6, 3.5)
+        figure = given_or_new(figure, 6, 3.5)
         axes = figure.subplots()
         when = ensemble.overturned_at[ensemble.overturned != 0]
         last = max([ensemble.duration or 0.0, *when], default=0.0) or 1.0

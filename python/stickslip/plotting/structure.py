@@ -18,7 +18,7 @@ from .._core import (
     StructureResponse,
 )
 from .._tables import has_drifts, has_floors
-from .figures import Place, new_figure
+from .figures import Place, given_or_new
 from .panels import draw_stops, mark_end, mark_peak, near_stops, shade_sticks
 from .styles import BLUE, COLORS, GRAY, VERMILION, put_figure_title, put_title, style
 from .trajectory import sticks, window
@@ -64,7 +64,7 @@ def plot_structure_response(
     slope = isinstance(system, FlexibleSlope)  # its column has a top, but no floors
     floors = response.floors if has_floors(response) and not slope else None
     with style():
-        figure = figure or new_figure(7, 5.5 if floors is not None else 3)
+        figure = given_or_new(figure, 7, 5.5 if floors is not None else 3)
         if floors is None:
             top = figure.subplots()
         else:
@@ -183,7 +183,7 @@ def plot_floors(
             isinstance(peaks[0].system, kind) for kind in (EquipmentOnFloor, FlexibleSlope)
         )
     with style():
-        figure = figure or new_figure(7, 4)
+        figure = given_or_new(figure, 7, 4)
         put_figure_title(figure, title or heading)
         for panel, values, first, name in zip(
             figure.subplots(1, 2),
@@ -282,7 +282,7 @@ def plot_modes(modes: Any, figure: FigureBase | None = None, title: str | None =
             "plot_modes: the structure has no shapes; give Structure.from_modes the shapes"
         )
     with style():
-        figure = figure or new_figure(4, 4)
+        figure = given_or_new(figure, 4, 4)
         axes = figure.subplots()
         axes.axvline(0, color=GRAY, linewidth=0.6, zorder=0)
         floor = np.arange(len(modes.shapes) + 1)

@@ -43,6 +43,14 @@ class ASCE43RockingEstimate:
     frequency: float | None
     damping_ratio: float
 
+    def __repr__(self) -> str:
+        place = "" if self.frequency is None else f" at {self.frequency:.4g} Hz"
+        overturns = ", overturns" if self.overturns else ""
+        return (
+            f"<ASCE43RockingEstimate: {self.rotation:.4g} rad ({self.rotation_ratio:.4g} alpha)"
+            f"{overturns}{place}, {100 * self.damping_ratio:.4g} % damped>"
+        )
+
 
 def asce43_rocking(
     block: RockingBlock | SlenderBlock, motion: GroundMotion

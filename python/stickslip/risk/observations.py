@@ -346,7 +346,7 @@ def _check_thresholds(
 ) -> None:
     for one in thresholds:
         if not (np.isfinite(one) and one > 0):
-            raise ValueError(f"{who}: a threshold must be positive and finite, got {one:g} {unit}")
+            raise ValueError(f"{who}: thresholds must be positive and finite, got {one:g} {unit}")
     if np.any(np.diff(thresholds) <= 0):
         raise ValueError(f"{who}: thresholds must increase, got {', '.join(map(str, thresholds))}")
     if not isinstance(table, SweepTable):

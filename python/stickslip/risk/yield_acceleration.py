@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._numbers import reals
+
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
@@ -119,7 +121,7 @@ def _within(
     name: str, given: Any, low: float, high: float, strict: bool = False
 ) -> NDArray[np.float64]:
     """The values as an array, each at least `low` (above it if strict) and below `high`."""
-    values = np.asarray(given, float)
+    values = reals(given, f"yield_acceleration: {name}")
     wrong = ~(np.isfinite(values) & (values < high) & (values > low if strict else values >= low))
     if wrong.any():
         bounds = f"{'above' if strict else 'at least'} {low}"

@@ -51,6 +51,13 @@ class OrientationPercentile:
     peak_degrees: float
     residual_degrees: float
 
+    def __repr__(self) -> str:
+        return (
+            f"<OrientationPercentile {self.percentile:g}: peak {self.peak:.4g} m at"
+            f" {self.peak_degrees:g} degrees, residual {self.residual:.4g} m at"
+            f" {self.residual_degrees:g} degrees>"
+        )
+
 
 @dataclass(kw_only=True, eq=False, repr=False)
 class Orientations(Tabular):

@@ -219,6 +219,7 @@ class SweepTable(Tabular, Saved):
                         f"SweepTable: '{name}' must have {length} values, got {column.size}"
                     )
         self.done = np.isfinite(self.peak).any(axis=(0, 2))
+        self.done[[one.record for one in self.failures]] = True
         self.motions: tuple[GroundMotion, ...] = ()
 
     def __eq__(self, other: object) -> bool:
@@ -232,7 +233,15 @@ class SweepTable(Tabular, Saved):
 
     @classmethod
     def empty(cls, *, has_stops: bool, planar: bool, **about: Any) -> SweepTable:
-        """A table without results."""
+        """A table without results.
+
+        Parameters
+        ----------
+        has_stops, planar : bool
+            Whether a slider has stops, and whether the sliders move in the plane.
+        about
+            The arguments of the constructor that are no results.
+        """
         shape = tuple(len(about[name]) for name in ("sliders", "records", "polarity"))
         nothing = np.full(shape, np.nan)
         return cls(
@@ -299,7 +308,7 @@ class SweepTable(Tabular, Saved):
         return np.where(count > 0, hit / np.maximum(count, 1), np.nan)
 
     def put(self, records: Sequence[int], result: Mapping[str, Any]) -> None:
-        """Enter the results for some records."""
+        """Enter the results for some records: in `result`, arrays by name and the failures."""
         places = list(records)
         for name, values in self.arrays().items():
             values[:, places, :] = result[name]
@@ -310,7 +319,9 @@ class SweepTable(Tabular, Saved):
     def __repr__(self) -> str:
         sliders, records, polarities = self.peak.shape
         remark = f"; {self.remark}" if self.remark else ""
-        return f"SweepTable({sliders} sliders, {records} records, {polarities} polarities{remark})"
+        return (
+            f"<SweepTable: {sliders} sliders, {records} records, {polarities} polarities{remark}>"
+        )
 
     # ---- statistics over records and polarities
 
@@ -476,7 +487,7 @@ class SweepTable(Tabular, Saved):
             )
         except KeyError as error:
             raise ValueError(f"SweepTable.from_json: the document lacks {error}") from None
-        except (AttributeError, TypeError, ValueError) as error:
+        except (AttributeError, IndexError, TypeError, ValueError) as error:
             raise ValueError(f"SweepTable.from_json: the document is damaged: {error}") from None
 
     def to_xarray(self) -> Any:
