@@ -150,7 +150,7 @@ def test_the_table_has_theory_over_simulation():
 def test_it_draws_itself():
     pytest.importorskip("matplotlib")
     c = ss.compare(BLOCK, PULSES, [30.0, 60.0], members=640, seed=1)
-    way, speed = c.plot(title="Pulses").axes
+    way, speed = c.plot().axes
     assert [line.get_label() for line in way.lines] == ["simulation", *c.theories]
     np.testing.assert_array_equal(speed.lines[1].get_xdata(), [30.0, 60.0])
 

@@ -1,7 +1,6 @@
 """Estimates and intervals: they unpack, compare, and are written as the numbers they hold."""
 
 import math
-import pickle
 from decimal import Decimal
 from fractions import Fraction
 
@@ -73,7 +72,6 @@ def test_both_compare_with_each_other_by_value(ensemble, estimate, interval):
     assert max(quantiles) == quantiles[0]
     assert (estimate < interval) == (estimate.value < interval.value)
     assert (estimate >= interval) == (estimate.value >= interval.value)
-    assert estimate == pickle.loads(pickle.dumps(estimate))
     assert estimate != estimate.value  # a number has no error
 
 

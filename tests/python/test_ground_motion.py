@@ -1,6 +1,5 @@
 """Ground motions: accepted and rejected arguments, and that motions keep their data."""
 
-import copy
 import math
 import pickle
 import warnings
@@ -281,31 +280,6 @@ def test_a_motion_beyond_the_range_of_doubles_is_an_overflow():
 
 
 # ---- values
-
-
-@pytest.mark.parametrize(
-    "motion",
-    [
-        ss.GroundMotion(SAMPLES, dt=0.1, name="even"),
-        ss.GroundMotion(SAMPLES, times=[-1, 0, 0.1, 7]),
-        ss.GroundMotion(SAMPLES, times=[0, 1, 1, 2], interpolation="constant"),
-    ],
-)
-def test_a_motion_survives_pickling_and_copying(motion):
-    for twin in (
-        *(pickle.loads(pickle.dumps(motion, p)) for p in range(2, pickle.HIGHEST_PROTOCOL + 1)),
-        copy.copy(motion),
-        copy.deepcopy(motion),
-    ):
-        assert np.array_equal(twin.acceleration, motion.acceleration)
-        assert np.array_equal(twin.time, motion.time)
-        for name in ("dt", "interpolation", "name"):
-            assert getattr(twin, name) == getattr(motion, name)
-
-
-def test_motions_do_not_change():
-    with pytest.raises(AttributeError):
-        ss.GroundMotion(SAMPLES, dt=1).name = "other"
 
 
 NOISE = ss.GroundMotion(np.random.default_rng(1).standard_normal(500), dt=0.02, name="noise")

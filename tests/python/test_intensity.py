@@ -1,7 +1,5 @@
 """Tables of a suite: intensity measures, response spectra, RotD50 and RotD100 of stations."""
 
-import csv
-import json
 import math
 
 import numpy as np
@@ -58,43 +56,6 @@ def test_the_spectra_of_a_suite_are_those_of_its_records():
         ss.response_spectrum(SUITE, [-1.0])
     with pytest.raises(TypeError, match="a Response, a PlanarResponse or a Suite, got 3"):
         ss.response_spectrum(3, [1.0])
-
-
-def tables():
-    turned = quake(5, transverse=quake(6).acceleration)
-    return {
-        "suite": SUITE,
-        "measures": SUITE.intensity_measures(),
-        "spectra": ss.response_spectrum(SUITE, [0.2, 1.0], [0.02, 0.05]),
-        "rotd": ss.rotd(turned, [0.0, 0.3]),
-    }
-
-
-@pytest.mark.parametrize("name", ["suite", "measures", "spectra", "rotd"])
-def test_tables_have_one_convention_of_names_and_units(name, tmp_path):
-    pytest.importorskip("pandas")
-    table = tables()[name]
-    frame = table.to_dataframe()
-    assert all(column.isidentifier() for column in frame.columns)
-    units = frame.attrs["units"]
-    assert set(units) <= set(frame.columns)
-    document = json.loads(table.to_json())
-    assert document["units"] == units
-    with table.to_csv(tmp_path / "table.csv").open(newline="") as stream:
-        head, *rows = csv.reader(stream)
-    assert head == [f"{c} [{units[c]}]" if c in units else c for c in frame.columns]
-    assert len(rows) == len(frame)
-    for k, column in enumerate(frame.columns):
-        values = frame[column].tolist()
-        for i, value in enumerate(values):
-            if isinstance(value, str):
-                assert rows[i][k] == document[column][i] == value
-            elif math.isnan(value):
-                assert document[column][i] is None
-            else:
-                assert float(rows[i][k]) == document[column][i] == value
-    page = table._repr_html_()
-    assert page.count("<tr>") == len(frame) + 1 and "<script" not in page
 
 
 def test_the_frame_of_a_suite_has_its_metadata():

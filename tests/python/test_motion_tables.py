@@ -45,29 +45,6 @@ def test_a_motion_reads_back_from_its_file(motion, tmp_path):
             assert component.dt == pytest.approx(motion.dt, rel=1e-14)
 
 
-def test_a_motion_becomes_a_table():
-    pandas = pytest.importorskip("pandas")
-    motion = ss.GroundMotion([0.0, 2.0, -1.0, 0.0], dt=0.5, vertical=[0.0, 1.0, 0.0, 0.0])
-    frame = motion.to_dataframe()
-    assert isinstance(frame, pandas.DataFrame)
-    assert list(frame.columns) == ["acceleration", "vertical", "velocity", "displacement"]
-    assert frame.index.name == "time" and list(frame.index) == [0, 0.5, 1, 1.5]
-    assert np.array_equal(frame.velocity, motion.velocity)
-    assert frame.attrs["units"]["velocity"] == "m/s"
-    assert frame.attrs["units"]["vertical"] == "m/s^2"
-
-
-def test_a_motion_becomes_json():
-    motion = ss.GroundMotion(
-        [0.1, 2.0], dt=0.5, interpolation="constant", name="a", orientation="N"
-    )
-    document = json.loads(motion.to_json())
-    assert document["name"] == "a" and document["orientation"] == "N"
-    assert document["interpolation"] == "constant"
-    assert document["acceleration"] == [0.1, 2.0] and document["time"] == [0, 0.5]
-    assert document["units"] == {"time": "s", "acceleration": "m/s^2"}
-
-
 def test_an_array_of_a_motion_is_its_acceleration():
     motion = ss.GroundMotion([0.1, 2.0, 3.0], dt=0.5)
     array = np.asarray(motion)

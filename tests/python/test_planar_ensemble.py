@@ -1,7 +1,6 @@
 """Ensembles of sliders in the plane: shapes, the same bits everywhere, files, tables, refusals."""
 
 import json
-import pickle
 from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
@@ -68,7 +67,6 @@ def test_threads_and_processes_give_the_same_bits(ensemble, tmp_path):
     assert run(checkpoint=kept) == ensemble
     ensemble.save(tmp_path / "whole.npz")
     assert ss.Ensemble.load(tmp_path / "whole.npz") == ensemble
-    assert pickle.loads(pickle.dumps(ensemble)) == ensemble
 
 
 def test_sliders_of_lists_and_random_ones_slide_in_the_plane():

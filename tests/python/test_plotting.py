@@ -3,7 +3,6 @@
 import io
 import math
 import os
-import pickle
 import re
 import sys
 import xml.etree.ElementTree
@@ -234,14 +233,6 @@ def test_thousands_of_events_are_one_artist():
     assert len(r.plot().axes[1].collections) == 1
 
 
-def test_a_response_is_drawn_into_a_given_figure():
-    from matplotlib.figure import Figure
-
-    figure = Figure()
-    assert ss.integrate(SLIDERS["block"], motion()).plot(figure=figure) is figure
-    assert len(figure.axes) == 3
-
-
 def test_the_area_under_the_drawn_force_is_the_energy(response):
     """Of Coulomb friction the force is straight between events, and the trapezoidal rule exact."""
     (axes,) = response.plot_hysteresis().axes
@@ -282,19 +273,15 @@ def test_a_picture_of_one_panel_is_drawn_into_given_axes():
     r = ss.integrate(SLIDERS["spring"], motion())
     figure = Figure()
     left, right = figure.subplots(1, 2)
-    assert r.plot_hysteresis(ax=left, title="mine") is left
-    assert left.get_title(loc="left") == "mine"
+    assert r.plot_hysteresis(ax=left) is left
     assert plotting.plot_friction_sweep([0.1, 0.2], [[1, 0.5]], ["a"], ax=right) is right
     assert len(left.lines) > 1 < len(right.lines)
     assert figure.axes == [left, right]
-    whole = Figure()
-    assert r.plot_hysteresis(figure=whole) is whole
     assert plotting.plot_friction_sweep([0.1, 0.2], [[1, 0.5]], ["a"], figure=Figure()).axes
     with pytest.raises(ValueError, match="plot_hysteresis: give figure or ax, got both"):
         r.plot_hysteresis(ax=left, figure=figure)
     with pytest.raises(ValueError, match="plot_friction_sweep: give figure or ax, got both"):
         plotting.plot_friction_sweep([0.1, 0.2], [[1, 0.5]], ["a"], figure=figure, ax=left)
-    assert r.plot_hysteresis()._repr_png_().startswith(b"\x89PNG")
 
 
 def test_a_notebook_shows_the_picture_without_pyplot(response):
@@ -368,13 +355,11 @@ def test_an_ensemble_says_what_slid(ensemble):
     figure = e.plot()
     assert figure.get_suptitle().endswith("slip level 0.0200 g, never backward, period 2.00 s")
     assert len(figure.axes) == 3
-    assert e.plot(title="mine").get_suptitle() == "mine"
     liner = ss.VelocityDependent(mu_slow=0.02, mu_fast=0.06, rate=50)
     e = ss.run_ensemble(liner, SHAKING, members=2, seed=1, velocity_spectrum=False)
     assert e.plot().get_suptitle().endswith("slip level 0.0200 g slow, 0.0600 g fast")
     told = ss.integrate(liner, SHAKING.sample(seed=1, member=0)).plot().axes[0].texts
     assert any("0.0200 g slow, 0.0600 g fast" in text.get_text() for text in told)
-    assert e.plot()._repr_png_().startswith(b"\x89PNG")
 
 
 def test_an_ensemble_that_never_slips_is_drawn():
@@ -591,8 +576,8 @@ def test_a_spectrum_has_a_title_and_an_axis_that_suits_its_periods():
     assert axes.get_xscale() == "log"
     labels = [label.get_text() for label in axes.get_xticklabels()]
     assert labels[0] == "0.05" and labels[-1] == "5" and "1" in labels
-    (axes,) = ss.response_spectrum(quake, periods[::-1]).plot(title="mine").axes
-    assert axes.get_xscale() == "log" and axes.get_title(loc="left") == "mine"
+    (axes,) = ss.response_spectrum(quake, periods[::-1]).plot().axes
+    assert axes.get_xscale() == "log"
     for even in (np.linspace(0.1, 4, 40), [0.0, 0.1, 0.2, 0.4], [1.0], [1.0, 1.1, 1.21]):
         (axes,) = ss.response_spectrum(quake, even).plot().axes
         assert axes.get_xscale() == "linear"
@@ -620,7 +605,6 @@ def test_a_spectrum_says_what_carries_the_oscillators():
         assert spectrum.name == name
         (axes,) = spectrum.plot().axes
         assert name in [text.get_text() for text in axes.texts]
-        assert pickle.loads(pickle.dumps(spectrum)) == spectrum
 
 
 def test_pictures_fit_into_figures_of_pyplot():

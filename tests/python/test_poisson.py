@@ -1,9 +1,7 @@
 """Poisson pulses from Python: the same motions, Python's own options, and rejected arguments."""
 
-import copy
 import json
 import math
-import pickle
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -199,37 +197,11 @@ def test_more_steps_than_memory_holds_are_refused():
         ss.PoissonPulses(rate=1e6, half_width=1, sigma=1, duration=1e6)
 
 
-def test_a_shape_comes_back_read_only():
-    times, values = ss.PoissonPulses(**USUAL).shape
-    assert times.tolist() == [0, 1, 2]
-    assert values.tolist() == [1, -1]
-    with pytest.raises(ValueError, match="read-only"):
-        times[0] = 1
-
-
-def test_pickled_and_copied_it_makes_the_same_motions(excitation):
-    for twin in (pickle.loads(pickle.dumps(excitation)), copy.deepcopy(excitation)):
-        assert twin == excitation
-        assert hash(twin) == hash(excitation)
-        assert twin.configuration == excitation.configuration
-        assert twin.quantile is excitation.quantile
-        assert same(twin.sample(seed=1, member=2), excitation.sample(seed=1, member=2))
-
-
-def test_what_makes_other_motions_is_not_equal(excitation):
-    plain = ss.PoissonPulses(**USUAL)
-    assert (excitation == plain) == (repr(excitation) == repr(plain))
-    assert excitation != ss.PoissonPulses(**{**USUAL, "rate": 4})
-    assert excitation != "pulses"
-
-
 def test_it_says_what_it_is(excitation):
     assert repr(ss.PoissonPulses(rate=3, half_width=0.5, sigma=2.5, duration=60)) == (
         "PoissonPulses(rate=3, half_width=0.5, sigma=2.5, duration=60)"
     )
-    if excitation.quantile is None:
-        assert eval(repr(excitation), {"PoissonPulses": ss.PoissonPulses}) == excitation
-    else:
+    if excitation.quantile is not None:
         assert "quantile=<function two_sided" in repr(excitation)
     told = json.loads(excitation.configuration)
     assert told["excitation"] == "PoissonPulses"
@@ -244,9 +216,7 @@ def test_an_envelope_weighs_pulses_where_they_arrive():
     t, b = shaped.pulses(seed=6, member=0)
     factor = np.where(t < 4, (t / 4) ** 2, np.exp(-0.3 * np.clip(t - 9, 0, None)))
     assert np.allclose(b, factor * plain.pulses(seed=6, member=0)[1], rtol=1e-14)
-    twin = pickle.loads(pickle.dumps(shaped))
-    assert twin == shaped
-    assert twin != plain
+    assert shaped != plain
     assert "envelope=Envelope(" in repr(shaped)
 
 

@@ -112,8 +112,6 @@ def test_values_come_in_the_shape_and_order_of_the_periods(kind):
         assert np.array_equal(spectrum.damping, [zeta])
     back = ss.response_spectrum(QUAKE, periods[::-1], damping, kind=kind)
     assert np.array_equal(back.values, table.values[:, ::-1])
-    with pytest.raises(ValueError, match="read-only"):
-        table.values[0, 0] = 1
     assert ss.response_spectrum(QUAKE, 0.5, kind=kind).values.shape == (1,)
     twice = ss.response_spectrum(2 * QUAKE, periods, damping, kind=kind)
     assert np.array_equal(twice.values, 2 * table.values)  # exact in binary
@@ -144,12 +142,8 @@ def test_real_records_have_spectra(pyslammer_files):
 
 def test_it_plots_itself():
     pytest.importorskip("matplotlib")
-    from matplotlib.figure import Figure
-
     spectrum = ss.response_spectrum(QUAKE, [1.0, 0.1, 0.5], [0.02, 0.05])
-    figure = spectrum.plot(title="noise")
-    (axes,) = figure.axes
-    assert axes.get_title(loc="left") == "noise"
+    (axes,) = spectrum.plot().axes
     x, y = axes.lines[1].get_data()
     assert np.array_equal(x, [0.1, 0.5, 1.0])
     assert np.allclose(y, spectrum.values[1][[1, 2, 0]] / ss.STANDARD_GRAVITY)
@@ -157,11 +151,8 @@ def test_it_plots_itself():
         "2 % damping",
         "5 % damping",
     ]
-    mine = Figure().subplots()
-    assert spectrum.plot(ax=mine) is mine
-    assert len(mine.lines) == 2
-    ss.response_spectrum(QUAKE, 1.0, kind="velocity").plot(ax=mine)
-    assert "velocity" in mine.get_ylabel()
+    (axes,) = ss.response_spectrum(QUAKE, 1.0, kind="velocity").plot().axes
+    assert "velocity" in axes.get_ylabel()
 
 
 def test_what_makes_no_spectrum_is_refused():

@@ -2,7 +2,6 @@
 
 import json
 import math
-import pickle
 import re
 import warnings
 from itertools import pairwise
@@ -65,8 +64,6 @@ def test_a_history_equals_one_of_40_digits():
     assert abs(e.imbalance) < 1e-12
     assert math.isnan(r.condition)
     assert "m^2/s^2" in repr(e)
-    with pytest.raises(ValueError, match="read-only"):
-        r.displacement[0] = 1
 
 
 def test_flight_and_overturning():
@@ -109,9 +106,6 @@ def test_a_block_and_its_properties():
     assert uneven.alpha < uneven.alpha_left
     assert uneven.p != uneven.p_left
     assert list(uneven.center) == pytest.approx([0.05, 0.8])
-    for one in (block, uneven):
-        assert eval(repr(one), {"RockingBlock": ss.RockingBlock}) == one
-        assert pickle.loads(pickle.dumps(one)) == one
 
 
 @pytest.mark.parametrize(

@@ -1,8 +1,6 @@
 """A slider: a law, an optional spring and an optional damper."""
 
-import copy
 import math
-import pickle
 
 import numpy as np
 import pytest
@@ -10,14 +8,6 @@ import stickslip as ss
 
 BLOCK = ss.Coulomb(slip_level=1.0, backward=1.6)
 CASTER = ss.Caster(slip_level=1.0, reach=0.5)
-SLIDERS = [
-    ss.Slider(BLOCK),
-    ss.Slider(BLOCK, 1.3),
-    ss.Slider(CASTER),
-    ss.Slider(CASTER, 1 / 3),
-    ss.Slider(BLOCK, 1.3, 0.2),
-    ss.Slider(CASTER, damping=0.2),
-]
 
 
 def test_a_slider_knows_its_law_and_its_spring():
@@ -82,46 +72,3 @@ def test_a_law_alone_is_a_slider_without_a_spring(record_a):
         alone, slider = ss.integrate(law, quake), ss.integrate(ss.Slider(law), quake)
         assert np.array_equal(alone.displacement, slider.displacement)
         assert alone.slider == ss.Slider(law)
-
-
-@pytest.mark.parametrize("value", [-1.5, math.nan, math.inf, 1e200])
-def test_a_natural_frequency_out_of_range_is_named(value):
-    message = rf"Slider: natural_frequency must be finite and at least 0, got {value:g} rad/s"
-    with pytest.raises(ValueError, match=message.replace("+", r"\+")):
-        ss.Slider(BLOCK, natural_frequency=value)
-
-
-@pytest.mark.parametrize("law", [0.2, "Coulomb", None, ss.Coulomb])
-def test_what_is_no_law_is_a_type_error(law):
-    with pytest.raises(TypeError):
-        ss.Slider(law)
-
-
-@pytest.mark.parametrize("slider", SLIDERS, ids=repr)
-def test_repr_evaluates_back_to_the_same_slider(slider):
-    names = {"Slider": ss.Slider, "Coulomb": ss.Coulomb, "Caster": ss.Caster}
-    assert eval(repr(slider), names) == slider
-
-
-@pytest.mark.parametrize("slider", SLIDERS, ids=repr)
-def test_a_slider_survives_pickling_and_copying(slider):
-    for protocol in range(2, pickle.HIGHEST_PROTOCOL + 1):
-        assert pickle.loads(pickle.dumps(slider, protocol)) == slider
-    assert copy.copy(slider) == slider == copy.deepcopy(slider)
-
-
-def test_sliders_are_equal_when_law_and_spring_are():
-    assert ss.Slider(BLOCK, 1.3) == ss.Slider(ss.Coulomb(slip_level=1.0, backward=1.6), 1.3)
-    assert hash(ss.Slider(BLOCK, 1.3)) == hash(ss.Slider(BLOCK, 1.3))
-    assert len(set(SLIDERS)) == len(SLIDERS)
-    assert ss.Slider(BLOCK) != 1.0
-
-
-def test_what_is_equal_has_the_same_hash():
-    law, slider = BLOCK, ss.Slider(BLOCK)
-    assert law != slider or hash(law) == hash(slider)
-
-
-def test_sliders_do_not_change():
-    with pytest.raises(AttributeError):
-        SLIDERS[0].natural_frequency = 1.0

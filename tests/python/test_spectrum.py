@@ -1,9 +1,7 @@
 """Spectra and envelopes: values, integrals, rejected arguments, and that they keep their data."""
 
-import copy
 import json
 import math
-import pickle
 
 import numpy as np
 import pytest
@@ -67,28 +65,12 @@ def test_kanai_tajimi_has_its_closed_form():
 def test_a_spectrum_knows_what_made_it(kind):
     s = SPECTRA[kind]
     assert s.kind == kind
-    again = getattr(ss.Spectrum, kind)(**s.parameters)
-    assert again == s
-    assert hash(again) == hash(s)
-    assert [k for k, other in SPECTRA.items() if other == s] == [kind]
-    assert s != 1
+    assert getattr(ss.Spectrum, kind)(**s.parameters) == s
     assert json.loads(s.configuration)["kind"]
-
-
-@each_spectrum
-def test_a_spectrum_survives_pickling_and_copying(kind):
-    s = SPECTRA[kind]
-    for twin in (pickle.loads(pickle.dumps(s)), copy.copy(s), copy.deepcopy(s)):
-        assert twin == s
-        assert np.array_equal(twin(np.linspace(0, 20, 99)), s(np.linspace(0, 20, 99)))
 
 
 def test_a_spectrum_shows_its_numbers():
     assert repr(SPECTRA["band_pass"]) == "Spectrum.band_pass(s0=1.5, low=2, high=5)"
-    assert (
-        eval(repr(SPECTRA["clough_penzien"]), {"Spectrum": ss.Spectrum})
-        == (SPECTRA["clough_penzien"])
-    )
     assert repr(SPECTRA["from_table"]) == "<Spectrum: table of 3 points, 0 to 4 rad/s>"
     assert "decaying" in repr(SPECTRA["from_function"])
 
@@ -167,17 +149,6 @@ def test_an_envelope_tells_its_numbers():
     assert (table.build_up, table.strong_duration, table.decay_rate) == (None, None, None)
     assert np.array_equal(table.table, [[1, 2, 4], [0.5, 2, 0]])
     assert repr(table) == "<Envelope: table of 3 points, 1 to 4 s>"
-    for e in ENVELOPES[:2]:
-        assert eval(repr(e), {"Envelope": ss.Envelope}) == e
-
-
-@pytest.mark.parametrize("e", ENVELOPES, ids=repr)
-def test_an_envelope_survives_pickling_and_copying(e):
-    for twin in (pickle.loads(pickle.dumps(e)), copy.copy(e), copy.deepcopy(e)):
-        assert twin == e
-        assert hash(twin) == hash(e)
-    assert sum(e == other for other in ENVELOPES) == 1
-    assert e != 1
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,5 @@
 """Ensembles of structures with a sliding interface, as Python users see them."""
 
-import pickle
-
 import numpy as np
 import pytest
 import stickslip as ss
@@ -109,7 +107,6 @@ def test_files_and_copies(ensemble: ss.Ensemble, tmp_path: object) -> None:
     file = f"{tmp_path}/ensemble.npz"
     ensemble.save(file)
     assert ss.Ensemble.load(file) == ensemble
-    assert pickle.loads(pickle.dumps(ensemble)) == ensemble
     assert ensemble.configuration["slider"]["base_mass"] == 1
     state = ensemble.__getstate__()
     state["floor_peaks"] = state["floor_peaks"][:-1]

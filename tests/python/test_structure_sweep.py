@@ -1,7 +1,5 @@
 """Sweeps of structures, and motions of floors, against loops of `integrate`."""
 
-import csv
-import pickle
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 
@@ -200,11 +198,7 @@ def test_tables_go_to_frames_files_and_back(tmp_path) -> None:
     ].itertuples()
     exact = ss.FlexibleSlope(ky_g=0.05, height=40, shear_velocity=300, damping_ratio=0.1)
     assert row.residual == pytest.approx(exact.decoupled(-QUAKES[2]).residual, rel=1e-12)
-    rows = list(csv.DictReader(table.to_csv(tmp_path / "t.csv").read_text().splitlines()))
-    assert [float(r["peak [m]"]) for r in rows] == frame.peak.tolist()
-    assert [r["method"] for r in rows] == frame.method.tolist()
     assert ss.SweepTable.from_json(table.to_json()) == table
-    assert pickle.loads(pickle.dumps(table)) == table
     pytest.importorskip("xarray")
     pytest.importorskip("h5py")
     data = table.to_xarray()

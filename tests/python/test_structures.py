@@ -1,6 +1,5 @@
 """Structures with one sliding interface, as Python users see them."""
 
-import copy
 import json
 import pickle
 import re
@@ -51,8 +50,6 @@ def test_floors_of_a_building() -> None:
     np.testing.assert_allclose(r.demand[stuck], whole[stuck], atol=1e-12)
     e = r.energy
     assert e.input == pytest.approx(e.dissipated + e.damped + e.kinetic + e.elastic, rel=1e-12)
-    with pytest.raises(ValueError, match="read-only"):
-        floors.displacement[0, 0] = 1
 
 
 def test_casters_break_away_and_go_far() -> None:
@@ -126,40 +123,6 @@ def test_slopes() -> None:
     assert soil.modulus_ratio([0, 1e-3]).tolist() == [1, 0.5]
 
 
-VALUES = [
-    ONE,
-    BUILDING,
-    ss.Structure.from_modes(
-        mass_fractions=[0.3, 0.1],
-        frequencies=[3, 9],
-        damping_ratios=[0.1, 0],
-        shapes=[[0.7, 0.3], [1.3, -0.3]],
-    ),
-    ISOLATED,
-    ss.IsolatedStructure(ss.FrictionPendulum(mu=0.05, radius=2.2), ONE),
-    EQUIPMENT,
-    SLOPE,
-    ss.FlexibleSlope(
-        ky_g=0.1,
-        height=20,
-        shear_velocity=200,
-        soil=ss.HyperbolicSoil(reference_strain=1e-3),
-        method="decoupled",
-    ),
-    ss.integrate(ISOLATED, QUAKE),
-    ss.integrate(ISOLATED, QUAKE).floors,
-]
-
-
-@pytest.mark.parametrize("value", VALUES, ids=lambda v: type(v).__name__)
-def test_values_compare_and_pickle(value: object) -> None:
-    for other in (pickle.loads(pickle.dumps(value)), copy.deepcopy(value)):
-        assert other == value
-        assert hash(other) == hash(value)
-    assert sum(value == other for other in VALUES) == 1
-    assert repr(value)
-
-
 def test_tables_and_json(tmp_path) -> None:
     r = ss.integrate(EQUIPMENT, QUAKE, settle=True)
     table = r.to_dataframe()
@@ -174,7 +137,7 @@ def test_figures() -> None:
     plotting = pytest.importorskip("stickslip.plotting")
     assert len(ss.integrate(EQUIPMENT, QUAKE).plot().axes) == 3
     assert len(ss.integrate(ss.IsolatedStructure(ss.Coulomb(mu=0.1), ONE), QUAKE).plot().axes) == 1
-    assert len(SLOPE.coupled(QUAKE).plot(title="dam").axes) == 1  # a slope has no floors
+    assert len(SLOPE.coupled(QUAKE).plot().axes) == 1  # a slope has no floors
     assert len(BUILDING.modes().plot().axes) == 1
     with pytest.raises(ValueError, match="no shapes"):
         plotting.plot_modes(ONE.modes())
@@ -503,7 +466,6 @@ def test_a_loop_of_ones_own() -> None:
                 )
                 assert abs(state.displacement - r.displacement[i + 1]) <= 1e-12 * r.sliding_distance
             assert abs(state.velocity - r.state.velocity) <= 1e-11 * np.abs(r.velocity).max()
-            assert pickle.loads(pickle.dumps(state)) == state
             x, v = ss.histories(system, motion)
             assert (x == r.displacement).all() and (v == r.velocity).all()
     with pytest.raises(ValueError, match=r"modal_velocity must have one value per mode, got 3 and"):

