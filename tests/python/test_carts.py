@@ -5,7 +5,6 @@ import itertools
 import json
 import math
 import os
-import pickle
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
@@ -48,37 +47,6 @@ CART = cart(outline=CORNERS)
 PLAIN = ss.integrate(CART, QUAKE, settle=True, walls=[WALL])
 
 
-def test_mirror_pairs_of_casters_are_the_caster_on_one_axis():
-    pair = cart([math.pi / 2, -math.pi / 2] * 2, rolling_mu=0.0)
-    line = ss.GroundMotion(ALONG, dt=0.05, transverse=0 * ALONG)
-    r = ss.integrate(pair, line)
-    one = ss.integrate(ss.Slider(ss.Caster(slip_level=0.97, reach=0.041)), line)
-    assert one.peak > 0.01
-    assert r.peak == pytest.approx(one.peak, rel=1e-12)
-    assert np.allclose(r.displacement[:, 0], one.displacement, rtol=0, atol=1e-12 * one.peak)
-    assert abs(r.displacement[:, 1]).max() < 1e-12 * one.peak
-    assert r.peak_yaw < 1e-12
-
-
-def test_the_response_turns_with_the_ground():
-    turn = 0.7
-    turned = ss.GroundMotion(
-        ALONG * math.cos(turn) - ACROSS * math.sin(turn),
-        dt=0.05,
-        transverse=ALONG * math.sin(turn) + ACROSS * math.cos(turn),
-    )
-    first, second = ss.integrate(CART, QUAKE), ss.integrate(CART, turned, yaw=turn)
-    rotation = np.array(
-        [[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]]
-    )  # of rows
-    assert first.peak > 0.02
-    # The sensitivity of this path to round-off is below 1e5.
-    assert np.allclose(second.displacement, first.displacement @ rotation, rtol=0, atol=1e-10)
-    assert np.allclose(second.yaw - turn, first.yaw, rtol=0, atol=1e-10)
-    assert np.allclose(second.heading, first.heading, rtol=0, atol=1e-10)
-    assert second.peak_outline == pytest.approx(first.peak_outline, rel=1e-9)
-
-
 def test_parallel_casters_are_one_caster():
     quake = QUAKE.scaled(0.5)  # under a stronger one the yaw of round-off grows to 1e-10
     four = ss.integrate(cart([0.8] * 4), quake)
@@ -106,22 +74,6 @@ def test_the_energy_closes_and_is_that_of_the_supports():
     total = sum(parts[name].sum() for name in ("scrub", "roll", "slide"))
     assert total == pytest.approx(energy.dissipated, rel=1e-13)
     assert (parts["slide"] == 0).all()
-
-
-def test_a_spin_ends_at_the_angle_of_its_closed_form():
-    # Wheels on a circle of radius R trail at asin(r/R): a constant moment brakes the spin.
-    level, reach, rolling, gyration, rate = 0.97, 0.041, 0.02, 0.25, 2.0
-    radius = math.hypot(0.3, 0.2)
-    supports = []
-    for x, y in itertools.product((0.3, -0.3), (0.2, -0.2)):
-        ahead = math.atan2(y, x) + math.pi / 2  # the way of the pivot
-        supports.append(caster((x, y), ahead - math.asin(reach / radius), level, reach, rolling))
-    spinning = ss.Cart(supports, radius_of_gyration=gyration)
-    r = ss.integrate(spinning, STILL, yaw_rate=rate, settle=True)
-    arm = math.sqrt(radius**2 - reach**2)
-    angle = rate**2 * gyration**2 / (2 * (level * reach + rolling * G * arm))
-    assert r.residual_yaw == pytest.approx(angle, rel=1e-12)
-    assert r.peak < 1e-12
 
 
 def test_peaks_and_clearances_are_those_of_the_histories():
@@ -270,12 +222,6 @@ def test_what_is_not_known_of_carts_is_refused():
             call()
 
 
-@pytest.mark.parametrize("one", [CART, *CART.supports[:1], FOOT, WHEEL, PLAIN, PLAIN.state])
-def test_objects_pickle_and_compare(one):
-    assert pickle.loads(pickle.dumps(one)) == one
-    assert hash(pickle.loads(pickle.dumps(one))) == hash(one)
-
-
 def test_carts_evaluate_and_go_through_json(tmp_path):
     wheel = {"mu": 0.5, "trail": 0.04, "wheel_width": 0.032, "rolling_mu": 0.01}
     mixed = ss.Cart(
@@ -291,8 +237,6 @@ def test_carts_evaluate_and_go_through_json(tmp_path):
         outline=[(1, 0.4), (-1, 0.4), (-1, -0.4)],
     )
     for one in (mixed, CART):
-        assert eval(repr(one), vars(ss)) == one
-        assert ss.Cart.from_json(one.to_json()) == one
         file = tmp_path / "cart.json"
         file.write_text(one.to_json())
         assert ss.Cart.from_json(file) == one
@@ -313,8 +257,6 @@ def test_a_sweep_equals_single_runs():
         assert (table.residual[at] == r.residual).all()
         assert table.clearance[(*at, 0)] == r.clearances[0].least
         assert table.rests[at] == r.rests
-    frame = json.loads(table.to_json())
-    assert frame["clearance_0"][0] == table.clearance[0, 0, 0, 0, 0]
     with pytest.warns(RuntimeWarning, match="2 of 2 combinations failed"):
         table = ss.sweep(cart(rolling_mu=0.0), QUAKE, settle=True, walls=[WALL])
     assert np.isnan(table.peak).all()
@@ -359,8 +301,6 @@ def test_random_headings_are_the_same_on_threads_and_processes():
         e.hitting(1)
     with pytest.raises(ValueError, match="of must be"):
         e.exceedance(1, of="rests")
-    assert pickle.loads(pickle.dumps(e)) == e
-    assert json.loads(e.to_json())["peak_outline"] == e.peak_outline.tolist()
 
 
 def test_carts_under_random_ground_motions():
@@ -383,9 +323,7 @@ def test_tables_and_files(tmp_path):
     assert document["peak_outline"] == PLAIN.peak_outline
     assert document["heading_3"] == PLAIN.heading[3].tolist()
     assert document["ground_acceleration_transverse"][:161] == ACROSS.tolist()
-    lines = PLAIN.to_csv(tmp_path / "r.csv").read_text().splitlines()
-    assert len(lines) == len(PLAIN.time) + 1
-    assert "yaw [rad]" in lines[0]
+    assert document["units"]["yaw"] == "rad"
     assert "heading" in PLAIN._repr_html_()
     assert "never moves" in ss.integrate(CART, QUAKE.scaled(0.05)).remark
     assert not ss.integrate(CART, QUAKE.scaled(0.001)).remark
@@ -395,8 +333,7 @@ def test_tables_and_files(tmp_path):
 def test_pictures(factor, tmp_path):
     pytest.importorskip("matplotlib", reason="pictures need matplotlib")
     r = ss.integrate(CART, QUAKE.scaled(factor), settle=True)
-    plan, way, turn = r.plot(title="mine").axes
-    assert plan.get_title(loc="left").startswith("mine")
+    plan, way, turn = r.plot().axes
     shown = [text.get_text() for text in plan.get_legend().get_texts()]
     assert ("end" in shown) is (factor == 1)
     assert way.get_ylabel() == "center [m]"

@@ -79,20 +79,6 @@ def test_the_area_is_that_of_the_loop_in_a_steady_cycle(slider):
     assert r.effective_damping == pytest.approx(measured, rel=1e-3)
 
 
-@pytest.mark.parametrize("interpolation", ["linear", "constant"])
-@pytest.mark.parametrize("settle", [False, True])
-def test_with_coulomb_friction_any_record_has_the_design_formulas(record_a, interpolation, settle):
-    # whatever the swing up to the peak was, as for isolators: T = 2 pi / sqrt(wn^2 + a / D)
-    for scale in (0.5, 1, 3):
-        quake = ss.GroundMotion(scale * record_a, dt=0.1, interpolation=interpolation)
-        r = ss.integrate(FLOOR, quake, settle=settle)
-        d = r.peak
-        period = 2 * math.pi / math.sqrt(WN**2 + LEVEL / d)
-        assert r.effective_period == pytest.approx(period, rel=1e-12)
-        damping = 2 / math.pi * LEVEL / (LEVEL + WN**2 * d)
-        assert r.effective_damping == pytest.approx(damping, rel=1e-10)
-
-
 def test_the_loop_does_not_know_forward_from_backward(record_a):
     for law in (
         ss.Caster(slip_level=LEVEL, reach=0.1),
@@ -135,11 +121,3 @@ def test_without_a_loop_the_reason_is_named(record_a):
                 getattr(r, name)
     moving = ss.integrate(FLOOR, still, velocity=1, settle=True)
     assert moving.effective_period < math.pi
-
-
-def test_the_largest_force_is_that_on_arrival_at_the_largest_displacement():
-    quake = ss.GroundMotion(3 * np.sin(0.7 * np.arange(200)), dt=0.1)
-    r = ss.integrate(FLOOR, quake)
-    assert r.peak_force == pytest.approx(LEVEL + WN**2 * r.peak, rel=1e-12)
-    assert abs(r.at(r.peak_force_time).displacement) == pytest.approx(r.peak, rel=1e-12)
-    assert abs(r.force).max() <= r.peak_force

@@ -126,6 +126,7 @@ def test_reprs_have_the_digits_that_a_person_reads(record):
         assert numbers(text), text
         assert all(significant(number) <= 5 for number in numbers(text)), text
     assert f"peak {r.peak:.4g} m" in repr(r)
+    assert f"dissipated {r.energy.dissipated:.4g}" in repr(r.energy)
     assert f"PGA {measures.peak_acceleration:.4g} m/s^2" in repr(measures)
     assert f"({measures.peak_acceleration / G:.4g} g)" in repr(measures)
     assert f"PGV {measures.peak_velocity:.4g} m/s" in repr(measures)
