@@ -473,15 +473,22 @@ CALLS |= {
 }
 
 
+@pytest.mark.filterwarnings("ignore::stickslip.PlausibilityWarning")  # of infinity
 @pytest.mark.parametrize("name", CALLS)
 def test_what_is_no_number_is_refused_by_the_name_of_the_argument(name):
-    for value in ("nan", "text"):
+    for value, got in (("nan", "nan"), ("text", "got"), ("inf", "inf")):
         for argument, call in changed(CALLS[name], value):
             if argument == "max_misfit":  # which a theory checks when it is asked
                 continue
-            match = argument.removesuffix("_left")  # a block's sides are alpha, both
-            with pytest.raises((TypeError, ValueError), match=match):
-                eval(call, {**NAMES, "nan": math.nan, "text": "x"})
+            try:
+                eval(call, {**NAMES, "nan": math.nan, "text": "x", "inf": math.inf})
+            except (TypeError, ValueError) as refusal:
+                message = str(refusal)
+                assert got in message, call
+                named = argument.removesuffix("_left")  # both sides of a block are alpha
+                assert value == "inf" or re.search(rf"\b{named}", message), call
+            else:
+                assert value == "inf", call
 
 
 @pytest.mark.parametrize("name", CALLS)

@@ -44,7 +44,6 @@ def test_speed_dependent_friction_is_made_of_coefficients_or_levels():
         ({"mu_slow": 0.1, "rate": 50}, "give either mu_fast or fast, got neither"),
         ({"mu_slow": 0.1, "slow": 1, "fast": 1, "rate": 50}, "either mu_slow or slow, got both"),
         ({"mu_slow": -0.1, "fast": 1, "rate": 50}, "mu_slow must be finite and at least 0"),
-        ({"slow": 1, "fast": NAN, "rate": 50}, "fast must be finite and at least 0, got nan m/s"),
         ({"slow": 1, "fast": 2, "rate": -1}, "rate must be finite and at least 0, got -1 s/m"),
     ]:
         with pytest.raises(ValueError, match=message):
@@ -224,7 +223,5 @@ def test_a_cup_is_a_pendulum_of_its_radius_less_the_wheels():
     assert ss.Slider.in_cup(ss.Coulomb(mu=0.1), cup_radius=G, damping=0.2).damping == 0.2
     with pytest.raises(ValueError, match=r"less than the cup's 0\.5 m, got 0\.5 m"):
         ss.Slider.in_cup(law, cup_radius=0.5, wheel_radius=0.5)
-    with pytest.raises(ValueError, match="cup_radius must be positive and finite, got nan m"):
-        ss.Slider.in_cup(law, cup_radius=NAN)
     with pytest.raises(ValueError, match="without spring and damper"):
         ss.Slider.in_cup(cart, cup_radius=0.5)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import STANDARD_GRAVITY, GroundMotion, response_spectrum
+from .._numbers import real
 
 __all__ = ["ASCE43Estimate", "asce43"]
 
@@ -126,6 +127,7 @@ def asce43(*, mu: float, motion: GroundMotion) -> ASCE43Estimate:
     """
     if not isinstance(motion, GroundMotion):
         raise TypeError(f"asce43: motion must be a GroundMotion, got {type(motion).__name__}")
+    mu = real(mu, "asce43: mu")
     if not (math.isfinite(mu) and mu > 0):
         raise ValueError(f"asce43: mu must be positive and finite, got {mu}")
     vertical = 0.0 if motion.vertical is None else float(np.abs(motion.vertical).max())
