@@ -1,6 +1,5 @@
 """Theory and simulation side by side."""
 
-import csv
 import json
 
 import numpy as np
@@ -186,7 +185,7 @@ def test_other_excitations_are_refused():
         c.ratio("Newmark", "covariance")
 
 
-def test_a_comparison_goes_to_tables(tmp_path):
+def test_a_comparison_goes_to_tables():
     pytest.importorskip("pandas")
     pulses = ss.PoissonPulses(rate=3, half_width=1 / 6, sigma=2.5, duration=6)
     c = ss.compare(ss.Coulomb(slip_level=0.5), pulses, [2, 4], members=640)
@@ -203,9 +202,6 @@ def test_a_comparison_goes_to_tables(tmp_path):
         assert np.array_equal(
             mine.displacement_variance, moments.displacement_variance, equal_nan=True
         )
-    rows = list(csv.DictReader(c.to_csv(tmp_path / "c.csv").read_text().splitlines()))
-    stored = [float(row["velocity_variance [m^2/s^2]"]) for row in rows]
-    assert np.array_equal(stored, frame.velocity_variance, equal_nan=True)
     document = json.loads(c.to_json(), parse_constant=pytest.fail)
     assert document["simulation"]["covariance"] == value.tolist()
     assert list(document["theories"]) == list(c.theories)

@@ -258,16 +258,6 @@ def test_heat_continues_from_a_state():
         ss.SurfaceHeat([1, 2, 3])
 
 
-def test_temperature_in_tables_and_json():
-    pandas = pytest.importorskip("pandas")
-    r = ss.integrate(ss.KumarFriction(**ISOLATOR), KOBE)
-    frame = r.to_dataframe()
-    assert isinstance(frame, pandas.DataFrame)
-    assert np.array_equal(frame["temperature"], r.temperature)
-    assert frame.attrs["units"]["temperature"] == "degC"
-    assert '"temperature"' in r.to_json()
-
-
 def test_heated_friction_in_ensembles_and_sweeps():
     law = ss.KumarFriction(**ISOLATOR)
     part = KOBE.cut(0, 10)
