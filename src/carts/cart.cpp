@@ -23,16 +23,12 @@ SwivelCaster SwivelCaster::from_slip_level(Vector2 at, double heading, double sl
   return {at, heading, slip_level / standard_gravity, reach, rolling_mu};
 }
 
-namespace {
-
-std::string number_of(std::size_t i) { return "Cart: support " + std::to_string(i) + ": "; }
-
-void check_support(std::size_t i, const Support& support) {
+void detail::check_support(const std::string& who, const Support& support) {
   const auto finite = [&](const char* name, double value, const char* unit) {
-    detail::require(std::isfinite(value), number_of(i) + name + " must be finite", value, unit);
+    require(std::isfinite(value), who + ": " + name + " must be finite", value, unit);
   };
   const auto at_least_0 = [&](const char* name, double value) {
-    detail::require(std::isfinite(value) && value >= 0, number_of(i) + name + " must be finite and at least 0", value);
+    require(std::isfinite(value) && value >= 0, who + ": " + name + " must be finite and at least 0", value);
   };
   std::visit(
       [&](const auto& one) {
@@ -45,13 +41,17 @@ void check_support(std::size_t i, const Support& support) {
         if (one.share) at_least_0("share", *one.share);
         if constexpr (requires { one.reach; }) {
           at_least_0("side_mu", one.side_mu);
-          detail::require(one.reach > 0, number_of(i) + "reach must be positive", one.reach, "m");
+          require(one.reach > 0, who + ": reach must be positive", one.reach, "m");
         } else {
           at_least_0("mu", one.mu);
         }
       },
       support);
 }
+
+namespace {
+
+std::string number_of(std::size_t i) { return "Cart: support " + std::to_string(i); }
 
 Vector2 place_of(const Support& support) {
   return std::visit([](const auto& one) { return one.at; }, support);
@@ -112,7 +112,7 @@ Cart::Cart(std::vector<Support> supports, double radius_of_gyration, std::option
   detail::require(!supports_.empty(), "Cart: supports must be at least 1", 0);
   detail::require(std::isfinite(radius_) && radius_ > 0, "Cart: radius_of_gyration must be positive and finite",
                   radius_, "m");
-  for (std::size_t i = 0; i < supports_.size(); ++i) check_support(i, supports_[i]);
+  for (std::size_t i = 0; i < supports_.size(); ++i) detail::check_support(number_of(i), supports_[i]);
   const auto given = static_cast<std::size_t>(
       std::count_if(supports_.begin(), supports_.end(), [](const Support& one) { return share_of(one).has_value(); }));
   if (center)
@@ -125,7 +125,7 @@ Cart::Cart(std::vector<Support> supports, double radius_of_gyration, std::option
     for (std::size_t i = 0; i < supports_.size(); ++i)
       if (!share_of(supports_[i]))
         detail::refuse(
-            number_of(i) + "it has no share, but others have: give a share to each support or to none; shares given",
+            number_of(i) + ": it has no share, but others have: give a share to each support or to none; shares given",
             static_cast<double>(given));
     double sum = 0, size = 0;
     for (const Support& one : supports_) {

@@ -83,7 +83,7 @@ std::array<double, max_order + 1> legendre(double s, int order) {
 GroundMotion resampled_alone(const GroundMotion& motion, double dt) {
   const double duration = motion.duration(), steps = std::floor(duration / dt * (1 + 1e-12));
   if (!(std::isfinite(dt) && dt > 0 && steps >= 1))
-    detail::refuse("GroundMotion: the time step of resampled must be positive and at most the duration, " +
+    detail::refuse("GroundMotion: resampled: dt must be positive and at most the duration, " +
                        detail::shortest(duration) + " s",
                    dt, "s");
   detail::require(steps < 1e9, "GroundMotion: resampled must give fewer than 10^9 samples", steps + 1);
@@ -97,13 +97,13 @@ GroundMotion resampled_alone(const GroundMotion& motion, double dt) {
 
 GroundMotion cut_alone(const GroundMotion& motion, double begin, double end) {
   const double first = motion.time(0), last = motion.time(motion.samples() - 1);
-  for (const double time : {begin, end})
-    if (!(time >= first && time <= last))
-      detail::refuse("GroundMotion: cut needs times within the motion, from " + detail::shortest(first) + " to " +
-                         detail::shortest(last) + " s",
+  for (const bool at_end : {false, true})
+    if (const double time = at_end ? end : begin; !(time >= first && time <= last))
+      detail::refuse(std::string("GroundMotion: cut: ") + (at_end ? "end" : "begin") + " must be within the motion, from " +
+                         detail::shortest(first) + " to " + detail::shortest(last) + " s",
                      time, "s");
   if (!(begin < end))
-    detail::refuse("GroundMotion: cut needs an end after the beginning, " + detail::shortest(begin) + " s", end, "s");
+    detail::refuse("GroundMotion: cut: end must be after begin, " + detail::shortest(begin) + " s", end, "s");
   const std::span<const double> n = motion.acceleration();
   if (const double dt = motion.dt(); !std::isnan(dt)) {
     const double from = std::round(begin / dt), to = std::round(end / dt);
@@ -187,19 +187,19 @@ GroundMotion scaled_to(const GroundMotion& motion, const ScaleTarget& target) {
                                 std::to_string(given));
   const auto check = [](const char* what, double value, const char* unit) {
     detail::require(std::isfinite(value) && value > 0,
-                    "GroundMotion: scaled_to needs a positive and finite " + std::string(what), value, unit);
+                    "GroundMotion: scaled_to: " + std::string(what) + " must be positive and finite", value, unit);
   };
   if (!(motion.peak_acceleration() > 0))
     throw std::invalid_argument("GroundMotion: scaled_to needs a motion with an acceleration, got zeros only");
   if (target.peak_acceleration) {
-    check("PGA", *target.peak_acceleration, "m/s^2");
+    check("peak acceleration (pga_g)", *target.peak_acceleration, "m/s^2");
     return motion.scaled(*target.peak_acceleration / motion.peak_acceleration());
   }
   if (target.arias_intensity) {
-    check("Arias intensity", *target.arias_intensity, "m/s");
+    check("Arias intensity (arias)", *target.arias_intensity, "m/s");
     return motion.scaled(std::sqrt(*target.arias_intensity / arias_intensity(motion)));
   }
-  check("PGV", *target.peak_velocity, "m/s");
+  check("peak velocity (pgv)", *target.peak_velocity, "m/s");
   return motion.scaled(*target.peak_velocity / peak_velocity(motion));
 }
 
@@ -212,7 +212,7 @@ GroundMotion cut(const GroundMotion& motion, double begin, double end) {
 }
 
 GroundMotion rotated(const GroundMotion& motion, double degrees) {
-  detail::require(std::isfinite(degrees), "GroundMotion: the angle of rotated must be finite", degrees, "degrees");
+  detail::require(std::isfinite(degrees), "GroundMotion: rotated: degrees must be finite", degrees, "degrees");
   if (!motion.has_transverse())
     throw std::invalid_argument("GroundMotion: rotated needs a transverse component; this motion has none");
   const auto [c, s] = detail::cos_sin(degrees);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "stickslip/error.hpp"
 #include "stickslip/units.hpp"
@@ -11,11 +12,15 @@ namespace stickslip {
 SlenderBlock::SlenderBlock(double p, double alpha_right, double alpha_left, double restitution)
     : p_(p), alpha_{alpha_right, alpha_left}, restitution_(restitution + 0.0) {
   detail::require(std::isfinite(p * p) && p > 0, "SlenderBlock: p must be positive and finite", p, "rad/s");
-  for (const double alpha : alpha_)
+  const auto check = [](const char* name, double alpha) {
     detail::require(alpha > 0 && alpha < std::numbers::pi / 2,
-                    "SlenderBlock: alpha must be positive and below pi/2; it is the angle whose tangent is half the "
-                    "width over the height of the center of mass",
+                    std::string("SlenderBlock: ") + name +
+                        " must be positive and below pi/2; it is the angle whose tangent is half the width over the "
+                        "height of the center of mass",
                     alpha, "rad");
+  };
+  check("alpha", alpha_right);
+  check("alpha_left", alpha_left);
   detail::require(restitution >= 0 && restitution <= 1, "SlenderBlock: restitution must be from 0 to 1", restitution);
 }
 

@@ -154,8 +154,8 @@ class SideBySide {
   LaneAccount account_{.next = next_};
 };
 
-/// Whether a block moves in so many parts of a motion that its pieces side by side take less time than one after the
-/// other, where rests are passed: in a third, as measured.
+/// Whether pieces side by side take less time than segments in order, where rests are passed: as measured, if a block
+/// moves in a third of the parts of a motion.
 bool moves_often(const Coulomb& law, const GroundMotion& motion) {
   const GroundMotion::Pieces ground(motion);
   constexpr std::size_t part = 32;

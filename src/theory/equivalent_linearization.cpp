@@ -232,6 +232,7 @@ std::string shaped_remark(const detail::ShapedProblem& problem, double ratio, st
 }  // namespace
 
 EquivalentLinearization::EquivalentLinearization(Options options) : options_(options) {
+  require(options.filter.max_misfit > 0, noun + ": max_misfit must be above 0", options.filter.max_misfit);
   require(options.tolerance >= 1e-12 && options.tolerance <= 1e-2, noun + ": tolerance must be from 1e-12 to 1e-2",
           options.tolerance);
   require(options.dimensions >= 1 && options.dimensions <= 6, noun + ": dimensions must be from 1 to 6",

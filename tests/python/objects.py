@@ -592,7 +592,6 @@ EXAMPLES = {
     CartFailure: [CartFailure(0, n, 1.0, "recorded", "never rests") for n in (1, 2)],
     LeftOut: [LeftOut("a.txt", "no record"), LeftOut("b.txt", "no record")],
 }
-OF_CARTS = (ss.SwivelCaster, ss.FixedWheel, ss.Foot)  # whose numbers the cart checks
 # Classes of the package that are not in the list, by the reason.
 ELSEWHERE = {
     "do work, and hold what cannot be copied": {"Thesis", "Animation"},

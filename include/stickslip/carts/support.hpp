@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <optional>
+#include <string>
 #include <variant>
 
 #include "stickslip/planar/vector.hpp"
@@ -73,5 +74,13 @@ struct Foot {
 };
 
 using Support = std::variant<SwivelCaster, FixedWheel, Foot>;
+
+namespace detail {
+
+/// Throw if a number of a support is out of range.
+/// @param who  begins the message
+void check_support(const std::string& who, const Support& support);
+
+}  // namespace detail
 
 }  // namespace stickslip

@@ -242,7 +242,10 @@ class MarginReader final : public TrajectoryReader {
 /// `integrate`.
 inline Margins margins(const Trajectory& trajectory) {
   detail::MarginReader reader(trajectory);
-  detail::read_ends(trajectory, reader, trajectory.end());
+  // A motion integrated again may arrive at its final rest a few digits later.
+  const double end = trajectory.end(), late = 0x1p-46 * std::abs(end);
+  const bool settled = end > trajectory.time(trajectory.samples() - 1);
+  detail::read_ends(trajectory, reader, settled ? end + late : end);
   return reader.margins;
 }
 

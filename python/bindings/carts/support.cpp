@@ -83,6 +83,10 @@ CasterAsGiven caster_of(const py::object& at, double heading, std::optional<doub
   check_unit("slip level", who, "slip_level", slip_level);
   check_unit("length of a cart", who, "reach", reach);
   check_unit("coefficient of friction", who, "rolling_mu", rolling_mu);
+  if (slip_level)
+    detail::require(std::isfinite(*slip_level) && *slip_level >= 0, who + ": slip_level must be finite and at least 0",
+                    *slip_level, "m/s^2");
+  detail::check_support(who, caster.support());
   return caster;
 }
 
@@ -168,8 +172,7 @@ lock : {None, 'wheel', 'both'}, optional
 Raises
 ------
 ValueError
-    Both or neither of the two groups; a lock without mu and trail; a value out of range, also raised by `Cart`, which
-    then names the support.
+    Both or neither of the two groups; a lock without mu and trail; a value out of range.
 
 Warns
 -----
@@ -231,7 +234,7 @@ share : float, optional
 Raises
 ------
 ValueError
-    By `Cart`, which names the support: a value out of range.
+    A value out of range.
 
 Warns
 -----
@@ -244,6 +247,7 @@ PlausibilityWarning
         check_unit("heading", "FixedWheel", "heading", std::abs(heading));
         check_unit("coefficient of friction", "FixedWheel", "mu", mu);
         check_unit("coefficient of friction", "FixedWheel", "rolling_mu", rolling_mu);
+        detail::check_support("FixedWheel", one);
         return one;
       }),
       py::kw_only(), py::arg("at"), py::arg("heading") = 0.0, py::arg("mu"), py::arg("rolling_mu") = 0.0,
@@ -268,7 +272,7 @@ share : float, optional
 Raises
 ------
 ValueError
-    By `Cart`, which names the support: a value out of range.
+    A value out of range.
 
 Warns
 -----
@@ -278,6 +282,7 @@ PlausibilityWarning
              const Foot one{to_vector2(at, "Foot: at", "m"), mu, share};
              check_place("Foot", one.at);
              check_unit("coefficient of friction", "Foot", "mu", mu);
+             detail::check_support("Foot", one);
              return one;
            }),
            py::kw_only(), py::arg("at"), py::arg("mu"), py::arg("share") = py::none());

@@ -72,6 +72,11 @@ heat : SurfaceHeat, optional
     Heat left in the sliding surface, for laws that depend on its temperature. Without it the surface is cold.)")
       .def(py::init([](double displacement, double velocity, double sliding_distance,
                        const std::optional<SurfaceHeat>& heat) {
+             using detail::require;
+             require(std::isfinite(displacement), "State: displacement must be finite", displacement, "m");
+             require(std::isfinite(velocity), "State: velocity must be finite", velocity, "m/s");
+             require(std::isfinite(sliding_distance) && sliding_distance >= 0,
+                     "State: sliding_distance must be finite and at least 0", sliding_distance, "m");
              State state = State::at(displacement, velocity);
              state.sliding_distance = sliding_distance;
              if (heat) state.heat = *heat;
