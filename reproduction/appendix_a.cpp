@@ -1,6 +1,6 @@
 // The mechanics of the caster: figure A.2.
+#include <stickslip/base/units.hpp>
 #include <stickslip/friction/caster.hpp>
-#include <stickslip/units.hpp>
 
 #include "reproduction/figures.hpp"
 

@@ -7,9 +7,9 @@
 #include <stickslip/excitation/gaussian.hpp>
 #include <stickslip/friction/coulomb.hpp>
 #include <stickslip/numerics/root.hpp>
+#include <stickslip/slider/viscous.hpp>
 #include <stickslip/theory/stationary_linearization.hpp>
 #include <stickslip/theory/white_noise.hpp>
-#include <stickslip/viscous.hpp>
 
 #include "excitation/interpolation_loss.hpp"
 #include "numerics/kaiser_window.hpp"

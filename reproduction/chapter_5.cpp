@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <stickslip/base/units.hpp>
 #include <stickslip/ensemble/run.hpp>
 #include <stickslip/excitation/poisson.hpp>
 #include <stickslip/excitation/with_vertical.hpp>
@@ -11,7 +12,6 @@
 #include <stickslip/theory/pulse_chain.hpp>
 #include <stickslip/theory/pulse_response.hpp>
 #include <stickslip/theory/pulse_superposition.hpp>
-#include <stickslip/units.hpp>
 
 #include "reproduction/figures.hpp"
 

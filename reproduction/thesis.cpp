@@ -1,6 +1,6 @@
 // The list of figures, their output as text, their summary, and the comparison with the expected values.
 #include "reproduction/thesis.hpp"
-#include <stickslip/error.hpp>
+#include <stickslip/base/error.hpp>
 
 #include <algorithm>
 #include <array>

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "stickslip/error.hpp"
-#include "stickslip/planar/vector.hpp"
+#include "stickslip/base/error.hpp"
+#include "stickslip/base/vector2.hpp"
 #include "stickslip/stickslip.h"
 
 namespace stickslip::detail {

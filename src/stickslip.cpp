@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "c_interface.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/min_max.hpp"
-#include "stickslip/error.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/multi_pendulum.hpp"
 #include "stickslip/friction/static_kinetic.hpp"
@@ -22,10 +22,10 @@
 #include "stickslip/planar/segment.hpp"
 #include "stickslip/planar/slider.hpp"
 #include "stickslip/planar/state.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
+#include "stickslip/slider/stops.hpp"
 #include "stickslip/sliding/advance.hpp"
-#include "stickslip/state.hpp"
-#include "stickslip/stops.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 namespace detail {

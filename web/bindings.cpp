@@ -22,8 +22,10 @@
 #include <vector>
 
 #include "exports.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/parts.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/plausibility.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/excitation/gaussian.hpp"
 #include "stickslip/excitation/spectrum.hpp"
 #include "stickslip/friction/laws.hpp"
@@ -38,15 +40,13 @@
 #include "stickslip/planar/integrate.hpp"
 #include "stickslip/planar/margins.hpp"
 #include "stickslip/planar/slider.hpp"
-#include "stickslip/plausibility.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/sliding/any_slider.hpp"
 #include "stickslip/sliding/detail/engine_of.hpp"
 #include "stickslip/sliding/forces.hpp"
 #include "stickslip/sliding/integrate.hpp"
 #include "stickslip/sliding/margins.hpp"
 #include "stickslip/sliding/trajectory.hpp"
-#include "stickslip/units.hpp"
 
 // What the page never asks of a law, and would be a tenth of the module: harmonic motions, and histories alone.
 namespace stickslip::detail {

@@ -1,7 +1,8 @@
 // All of the header-only core: laws, sliders, ground motions, the event loop. Needs nothing but the standard library.
 #pragma once
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/friction/laws.hpp"
 #include "stickslip/ground/ground_motion.hpp"
@@ -16,10 +17,9 @@
 #include "stickslip/planar/slider.hpp"
 #include "stickslip/planar/state.hpp"
 #include "stickslip/planar/trajectory.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
+#include "stickslip/slider/viscous.hpp"
 #include "stickslip/sliding/advance.hpp"
 #include "stickslip/sliding/integrate.hpp"
 #include "stickslip/sliding/response.hpp"
-#include "stickslip/state.hpp"
-#include "stickslip/units.hpp"
-#include "stickslip/viscous.hpp"
+#include "stickslip/state/state.hpp"

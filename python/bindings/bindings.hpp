@@ -391,9 +391,9 @@ inline Numbers to_numbers(const py::object& given, const std::string& name, cons
           : py::array(py::module_::import("numpy").attr("asarray")(values));  // its errors say what is wrong
   if (array.dtype().kind() == 'O') return values_of(array, name);
   if (std::string_view("biuf").find(array.dtype().kind()) == std::string_view::npos)
-    throw std::invalid_argument(name + " must hold real numbers, got " +
-                                (array.size() == 1 ? py::repr(values).cast<std::string>()
-                                                   : py::str(array.dtype()).cast<std::string>()));
+    throw std::invalid_argument(
+        name + " must hold real numbers, got " +
+        (array.size() == 1 ? py::repr(values).cast<std::string>() : py::str(array.dtype()).cast<std::string>()));
   return Numbers::ensure(array);
 }
 

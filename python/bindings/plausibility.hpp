@@ -1,4 +1,4 @@
-// Warnings about arguments that are likely in another unit, by the ranges of stickslip/plausibility.hpp.
+// Warnings about arguments that are likely in another unit, by the ranges of stickslip/base/plausibility.hpp.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "stickslip/plausibility.hpp"
+#include "stickslip/base/plausibility.hpp"
 
 namespace stickslip::python {
 

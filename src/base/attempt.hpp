@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 
 namespace stickslip::detail {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 
 namespace stickslip::detail {
 

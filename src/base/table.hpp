@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 
 namespace stickslip::detail {
 

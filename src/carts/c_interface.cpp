@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "c_interface.hpp"
+#include "stickslip/base/error.hpp"
+#include "stickslip/base/vector2.hpp"
 #include "stickslip/carts/cart.hpp"
 #include "stickslip/carts/integrate.hpp"
 #include "stickslip/carts/state.hpp"
-#include "stickslip/error.hpp"
-#include "stickslip/planar/vector.hpp"
 #include "stickslip/stickslip.h"
 
 namespace stickslip {

@@ -7,9 +7,9 @@
 
 #include "carts/hold.hpp"
 #include "carts/model.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/friction/caster.hpp"
-#include "stickslip/units.hpp"
 
 namespace stickslip {
 

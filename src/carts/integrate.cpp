@@ -13,10 +13,10 @@
 #include "carts/recorder.hpp"
 #include "carts/run.hpp"
 #include "carts/system.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
+#include "stickslip/base/units.hpp"
+#include "stickslip/run/detail/loop.hpp"
 #include "stickslip/run/detail/run.hpp"
-#include "stickslip/sliding/detail/loop.hpp"
-#include "stickslip/units.hpp"
 
 namespace stickslip {
 namespace detail {

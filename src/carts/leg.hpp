@@ -12,7 +12,7 @@
 #include "carts/model.hpp"
 #include "carts/zonotope.hpp"
 #include "stickslip/base/equal.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/flow/power_series.hpp"
 #include "stickslip/series/series.hpp"

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "carts/zonotope.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/carts/cart.hpp"
 #include "stickslip/carts/state.hpp"
 #include "stickslip/ground/ground_motion.hpp"
-#include "stickslip/units.hpp"
 
 namespace stickslip::detail {
 

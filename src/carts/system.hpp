@@ -12,12 +12,12 @@
 #include "carts/hold.hpp"
 #include "carts/leg.hpp"
 #include "carts/model.hpp"
+#include "stickslip/base/error.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/carts/response.hpp"
-#include "stickslip/error.hpp"
 #include "stickslip/flow/closed_form.hpp"
-#include "stickslip/sliding/detail/loop.hpp"
-#include "stickslip/sliding/detail/system.hpp"
-#include "stickslip/units.hpp"
+#include "stickslip/run/detail/loop.hpp"
+#include "stickslip/run/detail/system.hpp"
 
 namespace stickslip::detail {
 

@@ -15,7 +15,7 @@
 
 #include "lanes/row_moments.hpp"
 #include "stickslip/base/equal.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/statistics/binomial.hpp"
 
 namespace stickslip {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "stickslip/base/error.hpp"
 #include "stickslip/ensemble/ensemble.hpp"
-#include "stickslip/error.hpp"
 
 namespace stickslip::detail {
 

@@ -5,7 +5,7 @@
 
 #include "base/json.hpp"
 #include "base/table.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 
 namespace stickslip {
 

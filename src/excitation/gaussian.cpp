@@ -12,7 +12,7 @@
 #include "base/json.hpp"
 #include "excitation/interpolation_loss.hpp"
 #include "numerics/fftw_plan.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/excitation/gaussian.hpp"
 #include "stickslip/excitation/random.hpp"
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "stickslip/base/equal.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 
 namespace stickslip::detail {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "base/json.hpp"
 #include "excitation/pulse_shape.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/excitation/random.hpp"
 
 namespace stickslip {

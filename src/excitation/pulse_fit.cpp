@@ -14,7 +14,7 @@
 
 #include "excitation/interpolation_loss.hpp"
 #include "numerics/fftw_plan.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/ground/strong_motion.hpp"
 
 namespace stickslip {

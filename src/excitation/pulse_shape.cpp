@@ -13,7 +13,7 @@
 
 #include "excitation/interpolation_loss.hpp"
 #include "numerics/fftw_plan.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 
 namespace stickslip {
 namespace {

@@ -11,7 +11,7 @@
 #include "base/json.hpp"
 #include "base/table.hpp"
 #include "numerics/quadrature.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 
 namespace stickslip {
 namespace {

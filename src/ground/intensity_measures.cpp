@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "numerics/fftw_plan.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/ground/processing.hpp"
-#include "stickslip/units.hpp"
 
 namespace stickslip {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/read_number.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 
 namespace stickslip {
 namespace {

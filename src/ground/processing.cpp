@@ -12,10 +12,10 @@
 #include <utility>
 
 #include "stickslip/base/direction.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/ground/intensity_measures.hpp"
 #include "stickslip/ground/orientation.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
-#include "stickslip/units.hpp"
 
 namespace stickslip {
 namespace {
@@ -83,9 +83,9 @@ std::array<double, max_order + 1> legendre(double s, int order) {
 GroundMotion resampled_alone(const GroundMotion& motion, double dt) {
   const double duration = motion.duration(), steps = std::floor(duration / dt * (1 + 1e-12));
   if (!(std::isfinite(dt) && dt > 0 && steps >= 1))
-    detail::refuse("GroundMotion: resampled: dt must be positive and at most the duration, " +
-                       detail::shortest(duration) + " s",
-                   dt, "s");
+    detail::refuse(
+        "GroundMotion: resampled: dt must be positive and at most the duration, " + detail::shortest(duration) + " s",
+        dt, "s");
   detail::require(steps < 1e9, "GroundMotion: resampled must give fewer than 10^9 samples", steps + 1);
   std::vector<double> samples(static_cast<std::size_t>(steps) + 1);
   Reader reader(motion);
@@ -99,8 +99,9 @@ GroundMotion cut_alone(const GroundMotion& motion, double begin, double end) {
   const double first = motion.time(0), last = motion.time(motion.samples() - 1);
   for (const bool at_end : {false, true})
     if (const double time = at_end ? end : begin; !(time >= first && time <= last))
-      detail::refuse(std::string("GroundMotion: cut: ") + (at_end ? "end" : "begin") + " must be within the motion, from " +
-                         detail::shortest(first) + " to " + detail::shortest(last) + " s",
+      detail::refuse(std::string("GroundMotion: cut: ") + (at_end ? "end" : "begin") +
+                         " must be within the motion, from " + detail::shortest(first) + " to " +
+                         detail::shortest(last) + " s",
                      time, "s");
   if (!(begin < end))
     detail::refuse("GroundMotion: cut: end must be after begin, " + detail::shortest(begin) + " s", end, "s");

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "ground/records/text.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/ground/orientation.hpp"
 
 namespace stickslip {

@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "stickslip/base/units.hpp"
 #include "stickslip/ground/intensity_measures.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/numerics/root.hpp"
-#include "stickslip/units.hpp"
 
 namespace stickslip {
 namespace {

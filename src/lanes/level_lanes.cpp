@@ -12,7 +12,7 @@
 
 #include "lanes/blocks-inl.hpp"
 #include "lanes/rests-inl.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/sliding/integrate.hpp"
 
 #ifndef STICKSLIP_LEVEL_LANES

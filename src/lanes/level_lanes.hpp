@@ -10,7 +10,7 @@
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/static_kinetic.hpp"
 #include "stickslip/ground/ground_motion.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip::detail {
 

@@ -6,14 +6,14 @@
 
 #include "lanes/level_lanes.hpp"
 #include "stickslip/sliding/detail/linear_mover.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip::detail {
 
 /// A slider that starts from rest at 0, on level ground.
 struct LinearLane {
   std::unique_ptr<LinearMover> mover;
-  bool turned;          ///< under the flipped motion
+  bool turned;  ///< under the flipped motion
   const LinearLevels* levels = mover->levels();
   State state{};        ///< at the end
   SweepWatch watch{};   ///< at the end

@@ -6,7 +6,7 @@
 #include "stickslip/flow/damped.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/lanes/row.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 
 namespace stickslip::detail {
 

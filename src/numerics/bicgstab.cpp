@@ -9,7 +9,7 @@
 #include <exception>
 
 #include "numerics/sundials.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 
 namespace stickslip::detail {
 namespace {

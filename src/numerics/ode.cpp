@@ -17,7 +17,7 @@
 #include <utility>
 
 #include "numerics/sundials.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 
 #if SUNDIALS_VERSION_MAJOR >= 7 && defined(__GNUC__)
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations"  // ERKStep's functions have a second name since 7.1

@@ -9,7 +9,7 @@
 #include <limits>
 #include <memory>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 
 namespace stickslip::detail {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "c_interface.hpp"
 #include "stickslip/base/equal.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/rocking/integrate.hpp"
 #include "stickslip/rocking/rocking_block.hpp"
 #include "stickslip/rocking/slender_block.hpp"

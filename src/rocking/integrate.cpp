@@ -15,10 +15,10 @@
 #include "rocking/overturning.hpp"
 #include "rocking/run.hpp"
 #include "rocking/system.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/run/detail/event_log.hpp"
+#include "stickslip/run/detail/loop.hpp"
 #include "stickslip/run/detail/run.hpp"
-#include "stickslip/sliding/detail/loop.hpp"
 
 namespace stickslip {
 namespace detail {

@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "stickslip/base/equal.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/flow/power_series.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/numerics/root.hpp"
 #include "stickslip/rocking/slender_block.hpp"
 #include "stickslip/rocking/state.hpp"
-#include "stickslip/units.hpp"
 
 namespace stickslip::detail {
 

@@ -5,7 +5,7 @@
 #include "base/attempt.hpp"
 #include "base/outcomes.hpp"
 #include "rocking/run.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/rocking/integrate.hpp"
 
 namespace stickslip {

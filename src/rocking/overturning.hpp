@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "rocking/leg.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/rocking/slender_block.hpp"
-#include "stickslip/units.hpp"
 
 namespace stickslip::detail {
 

@@ -11,11 +11,11 @@
 #include "rocking/rigid_leg.hpp"
 #include "rocking/rigid_system.hpp"
 #include "rocking/run.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/rocking/integrate.hpp"
 #include "stickslip/run/detail/event_log.hpp"
+#include "stickslip/run/detail/loop.hpp"
 #include "stickslip/run/detail/run.hpp"
-#include "stickslip/sliding/detail/loop.hpp"
 
 namespace stickslip {
 namespace detail {

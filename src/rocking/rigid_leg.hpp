@@ -10,7 +10,7 @@
 #include "numerics/each_root.hpp"
 #include "rocking/leg.hpp"
 #include "stickslip/base/equal.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/flow/power_series.hpp"
 #include "stickslip/rocking/rocking_block.hpp"

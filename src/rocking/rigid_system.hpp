@@ -10,14 +10,14 @@
 #include "rocking/rigid_impact.hpp"
 #include "rocking/rigid_leg.hpp"
 #include "stickslip/base/equal.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/rocking/response.hpp"
 #include "stickslip/rocking/rocking_block.hpp"
 #include "stickslip/rocking/state.hpp"
-#include "stickslip/sliding/detail/loop.hpp"
-#include "stickslip/sliding/detail/system.hpp"
-#include "stickslip/units.hpp"
+#include "stickslip/run/detail/loop.hpp"
+#include "stickslip/run/detail/system.hpp"
 
 namespace stickslip::detail {
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <string>
 
-#include "stickslip/error.hpp"
-#include "stickslip/units.hpp"
+#include "stickslip/base/error.hpp"
+#include "stickslip/base/units.hpp"
 
 namespace stickslip {
 namespace {

@@ -13,12 +13,12 @@
 #include "base/states_by_steps.hpp"
 #include "rocking/leg.hpp"
 #include "stickslip/base/equal.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/rocking/integrate.hpp"
 #include "stickslip/rocking/response.hpp"
 #include "stickslip/rocking/state.hpp"
-#include "stickslip/units.hpp"
 
 namespace stickslip::detail {
 

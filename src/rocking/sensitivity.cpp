@@ -7,8 +7,8 @@
 #include "rocking/leg.hpp"
 #include "rocking/run.hpp"
 #include "rocking/system.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/rocking/state.hpp"
-#include "stickslip/units.hpp"
 
 namespace stickslip {
 namespace detail {

@@ -4,8 +4,8 @@
 #include <numbers>
 #include <string>
 
-#include "stickslip/error.hpp"
-#include "stickslip/units.hpp"
+#include "stickslip/base/error.hpp"
+#include "stickslip/base/units.hpp"
 
 namespace stickslip {
 

@@ -8,14 +8,14 @@
 
 #include "rocking/leg.hpp"
 #include "stickslip/base/equal.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/rocking/slender_block.hpp"
 #include "stickslip/rocking/state.hpp"
+#include "stickslip/run/detail/loop.hpp"
+#include "stickslip/run/detail/system.hpp"
 #include "stickslip/run/response.hpp"
-#include "stickslip/sliding/detail/loop.hpp"
-#include "stickslip/sliding/detail/system.hpp"
-#include "stickslip/units.hpp"
 
 namespace stickslip::detail {
 

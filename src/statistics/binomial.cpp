@@ -2,7 +2,7 @@
 
 #include <gsl/gsl_cdf.h>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/numerics/root.hpp"
 
 namespace stickslip {

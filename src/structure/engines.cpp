@@ -1,6 +1,6 @@
 // The event loop of structures, for each law of an interface.
 #include "stickslip/friction/laws.hpp"
-#include "stickslip/sliding/detail/loop.hpp"
+#include "stickslip/run/detail/loop.hpp"
 #include "structure/motion.hpp"
 #include "structure/move.hpp"
 

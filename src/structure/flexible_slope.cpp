@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/structure/isolated_structure.hpp"
-#include "stickslip/units.hpp"
 #include "structure/modal_interface.hpp"
 #include "structure/stuck_motion.hpp"
 

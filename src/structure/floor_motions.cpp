@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/structure/equipment_on_floor.hpp"
 #include "structure/expansion.hpp"

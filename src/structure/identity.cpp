@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/json.hpp"
-#include "stickslip/identity.hpp"
+#include "stickslip/slider/identity.hpp"
 #include "stickslip/structure/equipment_on_floor.hpp"
 #include "stickslip/structure/flexible_slope.hpp"
 #include "stickslip/structure/isolated_structure.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "structure/modal_interface.hpp"
 
 namespace stickslip {

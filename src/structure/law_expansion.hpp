@@ -11,7 +11,7 @@
 #include "stickslip/flow/detail/heated_level.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 #include "stickslip/structure/response.hpp"
 #include "structure/expansion.hpp"
 

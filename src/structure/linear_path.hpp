@@ -8,12 +8,12 @@
 #include <optional>
 
 #include "stickslip/base/equal.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/sliding/detail/bounds.hpp"
 #include "stickslip/structure/sliding_structure.hpp"
-#include "stickslip/units.hpp"
 #include "structure/linear_step.hpp"
 #include "structure/motion.hpp"
 #include "structure/move.hpp"

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "stickslip/spring.hpp"
-#include "stickslip/stops.hpp"
+#include "stickslip/slider/spring.hpp"
+#include "stickslip/slider/stops.hpp"
 #include "stickslip/structure/response.hpp"
 #include "structure/eigen.hpp"
 

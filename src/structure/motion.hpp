@@ -8,15 +8,15 @@
 #include <utility>
 
 #include "stickslip/base/equal.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/min_max.hpp"
-#include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/numerics/root.hpp"
+#include "stickslip/run/detail/loop.hpp"
+#include "stickslip/run/detail/system.hpp"
 #include "stickslip/sliding/detail/bounds.hpp"
 #include "stickslip/sliding/detail/load.hpp"
-#include "stickslip/sliding/detail/loop.hpp"
-#include "stickslip/sliding/detail/system.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 #include "structure/expansion.hpp"
 #include "structure/law_expansion.hpp"
 

@@ -9,13 +9,13 @@
 #include <type_traits>
 #include <variant>
 
+#include "stickslip/base/units.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/segment.hpp"
+#include "stickslip/run/detail/loop.hpp"
 #include "stickslip/sliding/any_slider.hpp"
 #include "stickslip/sliding/detail/bounds.hpp"
-#include "stickslip/sliding/detail/loop.hpp"
 #include "stickslip/structure/response.hpp"
-#include "stickslip/units.hpp"
 #include "structure/law_expansion.hpp"
 #include "structure/modal_interface.hpp"
 #include "structure/motion.hpp"

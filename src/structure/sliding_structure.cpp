@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/run/detail/run.hpp"
 #include "stickslip/run/options.hpp"
 #include "stickslip/sliding/detail/run.hpp"

@@ -14,7 +14,7 @@
 
 #include "base/digits.hpp"
 #include "stickslip/base/equal.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "structure/eigen.hpp"
 
 namespace stickslip {

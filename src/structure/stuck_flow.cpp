@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "stickslip/friction/coulomb.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 #include "stickslip/structure/response.hpp"
 #include "structure/expansion.hpp"
 

@@ -5,9 +5,9 @@
 #include <limits>
 #include <vector>
 
+#include "stickslip/base/units.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/sliding/detail/run.hpp"
-#include "stickslip/units.hpp"
 #include "structure/expansion.hpp"
 
 namespace stickslip::detail {

@@ -10,10 +10,10 @@
 #include <tuple>
 #include <utility>
 
+#include "stickslip/base/units.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/sliding/detail/recorder.hpp"
 #include "stickslip/sliding/detail/run.hpp"
-#include "stickslip/units.hpp"
 #include "structure/linear_path.hpp"
 #include "structure/modal_interface.hpp"
 #include "structure/move.hpp"

@@ -16,7 +16,7 @@
 
 #include "base/attempt.hpp"
 #include "base/threads.hpp"
-#include "stickslip/planar/vector.hpp"
+#include "stickslip/base/vector2.hpp"
 #include "stickslip/sweep/sweep.hpp"
 
 namespace stickslip::detail {

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "base/threads.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/ground/processing.hpp"
 
 namespace stickslip::detail {

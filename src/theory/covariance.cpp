@@ -10,7 +10,7 @@
 #include <variant>
 
 #include "numerics/ode.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "theory/linear_friction.hpp"
 #include "theory/theory_moments.hpp"
 

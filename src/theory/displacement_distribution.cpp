@@ -12,7 +12,7 @@
 #include "numerics/fftw_plan.hpp"
 #include "numerics/monotone_cubic.hpp"
 #include "stickslip/base/equal.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/numerics/root.hpp"
 
 namespace stickslip::detail {

@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/structure/sliding_structure.hpp"
 #include "structure/modal_interface.hpp"
 #include "theory/covariance.hpp"

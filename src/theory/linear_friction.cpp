@@ -10,7 +10,7 @@
 #include <string>
 #include <variant>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/numerics/root.hpp"
 #include "stickslip/series/series.hpp"
 

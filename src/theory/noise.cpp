@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 
 namespace stickslip::theory {
 namespace {

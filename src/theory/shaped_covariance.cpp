@@ -14,7 +14,7 @@
 #include <string>
 
 #include "numerics/ode.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/numerics/root.hpp"
 #include "structure/modal_interface.hpp"
 #include "theory/linear_friction.hpp"

@@ -12,7 +12,7 @@
 #include <utility>
 #include <variant>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 
 namespace stickslip::theory {
 namespace {

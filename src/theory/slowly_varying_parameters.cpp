@@ -12,7 +12,7 @@
 
 #include "numerics/ode.hpp"
 #include "numerics/quadrature.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/numerics/root.hpp"
 #include "theory/theory_moments.hpp"
 

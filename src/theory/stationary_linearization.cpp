@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "numerics/quadrature.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "theory/ranges.hpp"
 
 namespace stickslip::theory {

@@ -9,7 +9,7 @@
 #include <variant>
 
 #include "stickslip/base/equal.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/statistics/moments.hpp"
 
 namespace stickslip::detail {

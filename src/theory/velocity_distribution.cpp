@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "numerics/monotone_cubic.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/numerics/root.hpp"
 
 namespace stickslip::theory {

@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "theory/isotropic_noise.hpp"
 #include "theory/laplace_inversion.hpp"
 #include "theory/theory_moments.hpp"

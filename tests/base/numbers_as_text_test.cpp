@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "base/read_number.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "support/catch.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "stickslip/friction/multi_pendulum.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 #include "support/catch.hpp"
 
 using namespace stickslip;

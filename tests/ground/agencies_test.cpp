@@ -10,9 +10,9 @@
 
 #include "ground/agency_files.hpp"
 #include "ground/real_records.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/ground/processing.hpp"
 #include "stickslip/ground/records.hpp"
-#include "stickslip/units.hpp"
 #include "support/catch.hpp"
 
 using namespace stickslip;

@@ -8,9 +8,9 @@
 
 #include "ground/real_records.hpp"
 #include "ground/record_files.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/ground/intensity_measures.hpp"
 #include "stickslip/ground/records.hpp"
-#include "stickslip/units.hpp"
 #include "support/catch.hpp"
 
 using namespace stickslip;

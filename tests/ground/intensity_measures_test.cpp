@@ -5,8 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "stickslip/base/units.hpp"
 #include "stickslip/ground/processing.hpp"
-#include "stickslip/units.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
 

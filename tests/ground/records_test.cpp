@@ -14,7 +14,7 @@
 
 #include "ground/real_records.hpp"
 #include "ground/record_files.hpp"
-#include "stickslip/units.hpp"
+#include "stickslip/base/units.hpp"
 #include "support/catch.hpp"
 
 using namespace stickslip;

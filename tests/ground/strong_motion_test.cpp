@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "ground/real_records.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/excitation/poisson.hpp"
 #include "stickslip/ground/records.hpp"
-#include "stickslip/units.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
 

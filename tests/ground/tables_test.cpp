@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "ground/record_files.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/ground/orientation.hpp"
 #include "stickslip/ground/records.hpp"
-#include "stickslip/units.hpp"
 #include "support/catch.hpp"
 
 using namespace stickslip;

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "stickslip/identity.hpp"
 #include "stickslip/planar/any_planar_slider.hpp"
+#include "stickslip/slider/identity.hpp"
 #include "stickslip/sliding/any_slider.hpp"
 #include "stickslip/sliding/trajectory.hpp"
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
 

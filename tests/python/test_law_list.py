@@ -44,7 +44,7 @@ ALONE = {
         "include/stickslip/lanes/series_lanes.hpp",
         "src/ensemble/lanes_simulator.cpp",
         "src/lanes/series_lanes.cpp",
-        "python/bindings/slider.cpp",  # FrictionPendulum(mu_slow=..., mu_fast=..., rate=...)
+        "python/bindings/slider/slider.cpp",  # FrictionPendulum(mu_slow=..., mu_fast=..., rate=...)
         "python/stickslip/_interfaces.py",
     },
     "Degrading": {

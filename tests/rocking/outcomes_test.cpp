@@ -7,10 +7,10 @@
 #include <numbers>
 #include <vector>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/rocking/integrate.hpp"
 #include "stickslip/statistics/binomial.hpp"
-#include "stickslip/units.hpp"
 #include "support/catch.hpp"
 
 using namespace stickslip;

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "rocking/rigid_impact.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/rocking/integrate.hpp"
 #include "stickslip/sliding/integrate.hpp"
-#include "stickslip/units.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
 #include "support/reference.hpp"

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "stickslip/base/units.hpp"
 #include "stickslip/rocking/integrate.hpp"
-#include "stickslip/units.hpp"
 #include "support/catch.hpp"
 
 using namespace stickslip;

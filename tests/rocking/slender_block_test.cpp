@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/rocking/integrate.hpp"
-#include "stickslip/units.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
 #include "support/reference.hpp"

@@ -1,5 +1,5 @@
 // Stops: reference values, infinite bounces, limits, energy.
-#include "stickslip/stops.hpp"
+#include "stickslip/slider/stops.hpp"
 
 #include <algorithm>
 #include <cmath>

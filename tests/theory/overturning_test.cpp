@@ -10,10 +10,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/excitation/gaussian.hpp"
 #include "stickslip/rocking/integrate.hpp"
-#include "stickslip/units.hpp"
 #include "support/catch.hpp"
 #include "support/size.hpp"
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <tuple>
 
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/requirements.hpp"
-#include "stickslip/error.hpp"
 
 namespace stickslip {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "stickslip/base/vector2.hpp"
 #include "stickslip/carts/state.hpp"
-#include "stickslip/planar/vector.hpp"
 
 namespace stickslip {
 

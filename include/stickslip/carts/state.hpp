@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "stickslip/planar/vector.hpp"
+#include "stickslip/base/vector2.hpp"
 
 namespace stickslip {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <variant>
 
-#include "stickslip/planar/vector.hpp"
+#include "stickslip/base/vector2.hpp"
 
 namespace stickslip {
 

@@ -14,9 +14,9 @@
 #include "stickslip/excitation/excitation.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/ground_motion.hpp"
-#include "stickslip/identity.hpp"
 #include "stickslip/planar/identity.hpp"
 #include "stickslip/planar/slider.hpp"
+#include "stickslip/slider/identity.hpp"
 
 namespace stickslip {
 

@@ -12,7 +12,7 @@
 
 #include "stickslip/ensemble/times.hpp"
 #include "stickslip/ground/ground_motion.hpp"
-#include "stickslip/identity.hpp"
+#include "stickslip/slider/identity.hpp"
 
 namespace stickslip {
 

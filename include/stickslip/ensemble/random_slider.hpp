@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "stickslip/friction/law.hpp"
-#include "stickslip/identity.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/identity.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/statistics/distribution.hpp"
 
 namespace stickslip {

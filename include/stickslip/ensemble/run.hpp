@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "stickslip/base/error.hpp"
 #include "stickslip/ensemble/detail/lanes_simulator.hpp"
 #include "stickslip/ensemble/detail/planar_simulator.hpp"
 #include "stickslip/ensemble/detail/simulator.hpp"
@@ -17,10 +18,9 @@
 #include "stickslip/ensemble/one_of.hpp"
 #include "stickslip/ensemble/options.hpp"
 #include "stickslip/ensemble/random_slider.hpp"
-#include "stickslip/error.hpp"
 #include "stickslip/excitation/excitation.hpp"
 #include "stickslip/friction/law.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 
 namespace stickslip {
 

@@ -13,7 +13,7 @@
 #include "stickslip/ensemble/member.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/sliding/integrate.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/sliding/sensitivity.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "stickslip/stops.hpp"
+#include "stickslip/slider/stops.hpp"
 
 namespace stickslip {
 

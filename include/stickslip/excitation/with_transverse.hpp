@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "stickslip/base/equal.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/excitation/excitation.hpp"
 #include "stickslip/excitation/with_vertical.hpp"
 #include "stickslip/ground/ground_motion.hpp"

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/excitation/excitation.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 

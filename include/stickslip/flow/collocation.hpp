@@ -8,14 +8,14 @@
 #include <optional>
 
 #include "stickslip/base/equal.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/min_max.hpp"
-#include "stickslip/error.hpp"
 #include "stickslip/flow/detail/maker.hpp"
 #include "stickslip/flow/power_series.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/numerics/collocation.hpp"
-#include "stickslip/slider.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/slider/slider.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 

@@ -13,7 +13,7 @@
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/series/series.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 

@@ -9,7 +9,7 @@
 
 #include "stickslip/base/equal.hpp"
 #include "stickslip/flow/closed_form.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 

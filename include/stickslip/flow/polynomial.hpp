@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "stickslip/flow/closed_form.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 

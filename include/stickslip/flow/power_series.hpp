@@ -13,8 +13,8 @@
 #include "stickslip/flow/sinusoidal.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/series/series.hpp"
-#include "stickslip/slider.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/slider/slider.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 

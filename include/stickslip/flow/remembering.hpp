@@ -18,8 +18,8 @@
 #include "stickslip/flow/oscillator.hpp"
 #include "stickslip/flow/taylor.hpp"
 #include "stickslip/friction/law.hpp"
-#include "stickslip/slider.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/slider/slider.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 

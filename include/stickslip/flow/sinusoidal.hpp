@@ -9,7 +9,7 @@
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/flow/oscillator.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "stickslip/base/equal.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/min_max.hpp"
-#include "stickslip/error.hpp"
 #include "stickslip/flow/detail/maker.hpp"
 #include "stickslip/flow/power_series.hpp"
 #include "stickslip/flow/sinusoidal.hpp"
@@ -19,7 +19,7 @@
 #include "stickslip/numerics/root.hpp"
 #include "stickslip/series/dual.hpp"
 #include "stickslip/series/series.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 
 namespace stickslip {
 

@@ -5,12 +5,12 @@
 #include <limits>
 #include <tuple>
 
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/parts.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/numerics/root.hpp"
 #include "stickslip/series/series.hpp"
-#include "stickslip/units.hpp"
 
 namespace stickslip {
 

@@ -6,11 +6,11 @@
 #include <tuple>
 
 #include "stickslip/base/equal.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/base/parts.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/friction/law.hpp"
-#include "stickslip/units.hpp"
 
 namespace stickslip {
 

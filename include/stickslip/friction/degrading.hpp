@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/base/parts.hpp"
-#include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 

@@ -7,13 +7,13 @@
 #include <tuple>
 
 #include "stickslip/base/equal.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/base/parts.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/series/series.hpp"
-#include "stickslip/state.hpp"
-#include "stickslip/units.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 

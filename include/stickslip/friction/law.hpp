@@ -9,7 +9,7 @@
 
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 

@@ -13,13 +13,12 @@
 #include <vector>
 
 #include "stickslip/base/equal.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/base/parts.hpp"
-#include "stickslip/error.hpp"
-#include "stickslip/pendulum_memory.hpp"
-#include "stickslip/state.hpp"
-#include "stickslip/stops.hpp"
-#include "stickslip/units.hpp"
+#include "stickslip/base/units.hpp"
+#include "stickslip/state/pendulum_memory.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 
@@ -232,7 +231,7 @@ class MultiPendulum {
     const double most = capacity();
     if (!std::isfinite(most)) return;
     if (!on.stops) {
-      on.stops = Stops(most, restitution_);
+      on.stops = {most, restitution_};
       return;
     }
     for (const double gap : {on.stops.forward(), on.stops.backward()})

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/friction/multi_pendulum.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 

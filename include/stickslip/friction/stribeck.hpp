@@ -4,8 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/parts.hpp"
-#include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/series/series.hpp"
 

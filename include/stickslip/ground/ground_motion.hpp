@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "stickslip/base/equal.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/extremes.hpp"
 #include "stickslip/base/min_max.hpp"
-#include "stickslip/error.hpp"
 #include "stickslip/ground/segment.hpp"
 
 namespace stickslip {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/min_max.hpp"
-#include "stickslip/error.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 
 namespace stickslip {

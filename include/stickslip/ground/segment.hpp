@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "stickslip/base/requirements.hpp"
-#include "stickslip/units.hpp"
+#include "stickslip/base/units.hpp"
 
 namespace stickslip {
 

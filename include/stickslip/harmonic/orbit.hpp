@@ -8,7 +8,7 @@
 
 #include "stickslip/base/equal.hpp"
 #include "stickslip/sliding/response.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 

@@ -16,14 +16,14 @@
 #include <vector>
 
 #include "stickslip/base/equal.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/ground/harmonic_motion.hpp"
 #include "stickslip/harmonic/orbit.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/sliding/advance.hpp"
 #include "stickslip/sliding/detail/balanced.hpp"
 #include "stickslip/sliding/response.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/min_max.hpp"
-#include "stickslip/error.hpp"
 #include "stickslip/sliding/advance.hpp"
 
 namespace stickslip::detail {

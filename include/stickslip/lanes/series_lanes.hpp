@@ -14,7 +14,7 @@
 #include "stickslip/lanes/row.hpp"
 #include "stickslip/lanes/vector.hpp"
 #include "stickslip/series/series.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 
 #ifdef STICKSLIP_VECTORS
 namespace stickslip::detail {

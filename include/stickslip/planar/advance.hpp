@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/planar/detail/plane.hpp"
 #include "stickslip/planar/detail/sink.hpp"
 #include "stickslip/planar/observer.hpp"

@@ -10,8 +10,10 @@
 
 #include "stickslip/base/direction.hpp"
 #include "stickslip/base/equal.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/min_max.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/units.hpp"
+#include "stickslip/base/vector2.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/ground/response_spectrum.hpp"
 #include "stickslip/planar/integrate.hpp"
@@ -20,10 +22,8 @@
 #include "stickslip/planar/slider.hpp"
 #include "stickslip/planar/state.hpp"
 #include "stickslip/planar/trajectory.hpp"
-#include "stickslip/planar/vector.hpp"
 #include "stickslip/run/detail/reading.hpp"
 #include "stickslip/sliding/floor_motion.hpp"
-#include "stickslip/units.hpp"
 
 namespace stickslip {
 

@@ -1,14 +1,14 @@
 // The expansion of a slip in the plane.
 #pragma once
 
+#include "stickslip/base/vector2.hpp"
 #include "stickslip/planar/detail/along_load.hpp"
 #include "stickslip/planar/detail/along_stop.hpp"
 #include "stickslip/planar/detail/closed_forms.hpp"
 #include "stickslip/planar/detail/creep.hpp"
 #include "stickslip/planar/detail/expansion.hpp"
 #include "stickslip/planar/path.hpp"
-#include "stickslip/planar/vector.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 
 namespace stickslip {
 

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "stickslip/base/min_max.hpp"
+#include "stickslip/base/units.hpp"
+#include "stickslip/base/vector2.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/planar/integrate.hpp"
@@ -15,10 +17,8 @@
 #include "stickslip/planar/slider.hpp"
 #include "stickslip/planar/state.hpp"
 #include "stickslip/planar/trajectory.hpp"
-#include "stickslip/planar/vector.hpp"
 #include "stickslip/run/detail/largest.hpp"
 #include "stickslip/sliding/forces.hpp"
-#include "stickslip/units.hpp"
 
 namespace stickslip {
 

@@ -3,12 +3,12 @@
 
 #include <functional>
 
+#include "stickslip/base/vector2.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/planar/integrate.hpp"
 #include "stickslip/planar/response.hpp"
 #include "stickslip/planar/slider.hpp"
 #include "stickslip/planar/state.hpp"
-#include "stickslip/planar/vector.hpp"
 #include "stickslip/run/detail/run.hpp"
 
 namespace stickslip {

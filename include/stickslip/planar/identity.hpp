@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "stickslip/identity.hpp"
 #include "stickslip/planar/slider.hpp"
+#include "stickslip/slider/identity.hpp"
 
 namespace stickslip {
 

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "stickslip/base/equal.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/min_max.hpp"
-#include "stickslip/error.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/planar/advance.hpp"
 #include "stickslip/planar/detail/engine.hpp"

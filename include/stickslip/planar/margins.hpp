@@ -9,6 +9,8 @@
 
 #include "stickslip/base/equal.hpp"
 #include "stickslip/base/min_max.hpp"
+#include "stickslip/base/units.hpp"
+#include "stickslip/base/vector2.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/planar/integrate.hpp"
 #include "stickslip/planar/response.hpp"
@@ -16,9 +18,7 @@
 #include "stickslip/planar/slider.hpp"
 #include "stickslip/planar/state.hpp"
 #include "stickslip/planar/trajectory.hpp"
-#include "stickslip/planar/vector.hpp"
 #include "stickslip/sliding/margins.hpp"
-#include "stickslip/units.hpp"
 
 namespace stickslip {
 namespace detail {

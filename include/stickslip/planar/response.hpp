@@ -1,10 +1,10 @@
 // The response of a slider in the plane to a ground motion.
 #pragma once
 
+#include "stickslip/base/vector2.hpp"
 #include "stickslip/planar/state.hpp"
-#include "stickslip/planar/vector.hpp"
 #include "stickslip/run/response.hpp"
-#include "stickslip/surface_heat.hpp"
+#include "stickslip/state/surface_heat.hpp"
 
 namespace stickslip {
 

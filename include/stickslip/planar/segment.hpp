@@ -1,8 +1,8 @@
 // A segment of a ground motion in two horizontal directions, and of the load that it causes.
 #pragma once
 
+#include "stickslip/base/vector2.hpp"
 #include "stickslip/ground/segment.hpp"
-#include "stickslip/planar/vector.hpp"
 
 namespace stickslip {
 

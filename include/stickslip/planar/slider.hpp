@@ -9,8 +9,8 @@
 #include "stickslip/base/equal.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/planar/state.hpp"
-#include "stickslip/slider.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/slider/slider.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "stickslip/base/equal.hpp"
-#include "stickslip/planar/vector.hpp"
-#include "stickslip/surface_heat.hpp"
+#include "stickslip/base/vector2.hpp"
+#include "stickslip/state/surface_heat.hpp"
 
 namespace stickslip {
 

@@ -5,9 +5,9 @@
 #include <functional>
 #include <string>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/run/response.hpp"
-#include "stickslip/surface_heat.hpp"
+#include "stickslip/state/surface_heat.hpp"
 
 namespace stickslip {
 

@@ -11,11 +11,11 @@
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/ground/harmonic_motion.hpp"
 #include "stickslip/ground/segment.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/sliding/histories.hpp"
 #include "stickslip/sliding/integrate.hpp"
 #include "stickslip/sliding/sensitivity.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 

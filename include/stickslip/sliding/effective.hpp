@@ -10,14 +10,14 @@
 #include <vector>
 
 #include "stickslip/base/equal.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/min_max.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/sliding/detail/load.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/sliding/trajectory.hpp"
-#include "stickslip/state.hpp"
-#include "stickslip/units.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 

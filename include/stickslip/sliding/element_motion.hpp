@@ -10,9 +10,9 @@
 #include "stickslip/friction/multi_pendulum.hpp"
 #include "stickslip/friction/pendulum_loop.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/sliding/trajectory.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 

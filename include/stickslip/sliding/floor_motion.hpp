@@ -10,15 +10,15 @@
 #include <vector>
 
 #include "stickslip/base/equal.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/min_max.hpp"
-#include "stickslip/error.hpp"
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/ground/response_spectrum.hpp"
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/run/detail/reading.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/sliding/trajectory.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 

@@ -6,12 +6,12 @@
 
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/run/detail/run.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/sliding/detail/engine_of.hpp"
 #include "stickslip/sliding/detail/recorder.hpp"
 #include "stickslip/sliding/detail/run.hpp"
 #include "stickslip/sliding/response.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 

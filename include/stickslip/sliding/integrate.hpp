@@ -7,11 +7,11 @@
 #include <string>
 #include <utility>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/run/detail/run.hpp"
 #include "stickslip/run/options.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/sliding/advance.hpp"
 #include "stickslip/sliding/detail/engine.hpp"
 #include "stickslip/sliding/detail/engine_of.hpp"

@@ -9,14 +9,14 @@
 
 #include "stickslip/base/equal.hpp"
 #include "stickslip/base/min_max.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/sliding/detail/bounds.hpp"
 #include "stickslip/sliding/detail/recall.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/sliding/trajectory.hpp"
-#include "stickslip/state.hpp"
-#include "stickslip/units.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 

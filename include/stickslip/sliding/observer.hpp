@@ -2,7 +2,7 @@
 #pragma once
 
 #include "stickslip/sliding/response.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 

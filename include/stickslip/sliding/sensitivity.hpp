@@ -13,14 +13,15 @@
 #include <vector>
 
 #include "stickslip/base/equal.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/min_max.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/sliding/advance.hpp"
 #include "stickslip/sliding/detail/engine_of.hpp"
 #include "stickslip/sliding/detail/friction_variation.hpp"
@@ -31,8 +32,7 @@
 #include "stickslip/sliding/observer.hpp"
 #include "stickslip/sliding/parameter.hpp"
 #include "stickslip/sliding/response.hpp"
-#include "stickslip/state.hpp"
-#include "stickslip/units.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 

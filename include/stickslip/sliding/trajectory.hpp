@@ -11,14 +11,15 @@
 #include <vector>
 
 #include "stickslip/base/equal.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/min_max.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/run/detail/reading.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/sliding/detail/engine.hpp"
 #include "stickslip/sliding/detail/engine_of.hpp"
 #include "stickslip/sliding/detail/load.hpp"
@@ -26,8 +27,7 @@
 #include "stickslip/sliding/detail/sink.hpp"
 #include "stickslip/sliding/observer.hpp"
 #include "stickslip/sliding/response.hpp"
-#include "stickslip/state.hpp"
-#include "stickslip/units.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 

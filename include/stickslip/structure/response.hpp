@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "stickslip/sliding/response.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 #include "stickslip/structure/matrix.hpp"
 
 namespace stickslip {

@@ -13,7 +13,7 @@
 #include "stickslip/friction/law.hpp"
 #include "stickslip/friction/static_kinetic.hpp"
 #include "stickslip/ground/ground_motion.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/sliding/any_slider.hpp"
 #include "stickslip/sliding/integrate.hpp"
 #include "stickslip/sweep/sweep.hpp"

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "stickslip/base/equal.hpp"
+#include "stickslip/base/vector2.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/planar/integrate.hpp"
 #include "stickslip/planar/response.hpp"
 #include "stickslip/planar/slider.hpp"
-#include "stickslip/planar/vector.hpp"
 #include "stickslip/sliding/impacts.hpp"
 #include "stickslip/sweep/sweep.hpp"
 

@@ -18,7 +18,7 @@
 #include "stickslip/friction/law.hpp"
 #include "stickslip/friction/static_kinetic.hpp"
 #include "stickslip/ground/ground_motion.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/sliding/any_slider.hpp"
 #include "stickslip/sliding/detail/linear_mover.hpp"
 #include "stickslip/sliding/impacts.hpp"

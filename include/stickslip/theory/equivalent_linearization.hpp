@@ -11,7 +11,7 @@
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/statistics/moments.hpp"
 #include "stickslip/theory/noise.hpp"
 #include "stickslip/theory/shaping_filter.hpp"

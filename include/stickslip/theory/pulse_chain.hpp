@@ -9,7 +9,7 @@
 
 #include "stickslip/excitation/poisson.hpp"
 #include "stickslip/friction/coulomb.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/statistics/moments.hpp"
 #include "stickslip/statistics/tally.hpp"
 #include "stickslip/theory/detail/pulse_accuracy.hpp"

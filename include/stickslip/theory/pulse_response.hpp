@@ -12,14 +12,14 @@
 #include <vector>
 
 #include "stickslip/base/equal.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/excitation/poisson.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/sliding/advance.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 #include "stickslip/theory/theory.hpp"
 
 namespace stickslip::theory {

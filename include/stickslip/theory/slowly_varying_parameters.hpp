@@ -16,7 +16,7 @@
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/harmonic_motion.hpp"
 #include "stickslip/series/series.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/sliding/detail/balanced.hpp"
 #include "stickslip/statistics/moments.hpp"
 #include "stickslip/theory/theory.hpp"

@@ -10,7 +10,7 @@
 #include "stickslip/excitation/spectrum.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/statistics/moments.hpp"
 #include "stickslip/theory/noise.hpp"
 #include "stickslip/theory/theory.hpp"

@@ -7,10 +7,10 @@
 #include <string>
 
 #include "stickslip/base/equal.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/friction/law.hpp"
-#include "stickslip/slider.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/slider/slider.hpp"
+#include "stickslip/state/state.hpp"
 #include "stickslip/statistics/moments.hpp"
 
 namespace stickslip::theory {

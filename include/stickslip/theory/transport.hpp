@@ -14,7 +14,7 @@
 #include "stickslip/excitation/poisson.hpp"
 #include "stickslip/excitation/spectrum.hpp"
 #include "stickslip/friction/law.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/sliding/any_slider.hpp"
 #include "stickslip/statistics/moments.hpp"
 #include "stickslip/statistics/tally.hpp"

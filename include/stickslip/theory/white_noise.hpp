@@ -8,7 +8,7 @@
 #include <string>
 
 #include "stickslip/friction/coulomb.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/statistics/moments.hpp"
 #include "stickslip/theory/noise.hpp"
 #include "stickslip/theory/theory.hpp"

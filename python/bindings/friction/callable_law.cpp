@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "parts.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 
 namespace stickslip::python {
 

@@ -1,4 +1,4 @@
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 #include <pybind11/stl.h>
 

@@ -28,7 +28,8 @@ StructureState state_from(const py::object& modal_displacement, const py::object
                        .modal_velocity = to_vector(modal_velocity, "StructureState: modal_velocity"),
                        .heat = heat.value_or(SurfaceHeat())};
   const auto check_finite = [](const std::vector<double>& values, const std::string& name) {
-    for (const double value : values) require(std::isfinite(value), "StructureState: " + name + " must be finite", value);
+    for (const double value : values)
+      require(std::isfinite(value), "StructureState: " + name + " must be finite", value);
   };
   check_finite(state.modal_displacement, "modal_displacement");
   check_finite(state.modal_velocity, "modal_velocity");

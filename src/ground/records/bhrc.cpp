@@ -16,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 
 namespace stickslip::records {
 namespace {

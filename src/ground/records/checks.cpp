@@ -9,7 +9,7 @@
 #include "ground/records/text.hpp"
 #include "ground/records/times.hpp"
 #include "ground/records/units.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 
 namespace stickslip::records {
 namespace {

@@ -20,9 +20,9 @@
 #include "ground/records/formats.hpp"
 #include "ground/records/text.hpp"
 #include "ground/records/units.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/ground/orientation.hpp"
-#include "stickslip/units.hpp"
 
 namespace stickslip {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "ground/records/checks.hpp"
 #include "ground/records/times.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 
 namespace stickslip::records {
 

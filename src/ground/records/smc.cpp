@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 
 namespace stickslip::records {
 

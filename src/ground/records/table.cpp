@@ -27,9 +27,9 @@
 #include <utility>
 #include <vector>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
+#include "stickslip/base/plausibility.hpp"
 #include "stickslip/ground/orientation.hpp"
-#include "stickslip/plausibility.hpp"
 
 namespace stickslip::records {
 namespace {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "base/read_number.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 
 namespace stickslip::records {
 namespace {

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "ground/records/text.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/ground/records.hpp"
-#include "stickslip/units.hpp"
 
 namespace stickslip {
 namespace records {

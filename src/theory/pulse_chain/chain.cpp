@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/theory/pulse_response.hpp"
 
 namespace stickslip::detail::pulse_chain {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "stickslip/friction/coulomb.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/theory/pulse_chain.hpp"
 #include "theory/pulse_chain/lattice.hpp"
 #include "theory/slip_excursion.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/theory/pulse_response.hpp"
 #include "stickslip/theory/theory.hpp"
 

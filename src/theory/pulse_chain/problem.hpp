@@ -3,7 +3,7 @@
 
 #include "stickslip/excitation/poisson.hpp"
 #include "stickslip/friction/coulomb.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "theory/pulse_chain/lattice.hpp"
 
 namespace stickslip::detail::pulse_chain {

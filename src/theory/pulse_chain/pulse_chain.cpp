@@ -9,7 +9,7 @@
 #include <string>
 
 #include "base/digits.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "theory/pulse_chain/chain.hpp"
 #include "theory/pulse_chain/growth.hpp"
 #include "theory/pulse_chain/problem.hpp"

@@ -7,9 +7,9 @@
 #include <variant>
 
 #include "stickslip/base/equal.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/sliding/advance.hpp"
-#include "stickslip/units.hpp"
 
 namespace stickslip::detail {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "stickslip/sliding/any_slider.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip::detail {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
-#include "stickslip/error.hpp"
-#include "stickslip/units.hpp"
+#include "stickslip/base/error.hpp"
+#include "stickslip/base/units.hpp"
 #include "theory/transport/rocking_chain.hpp"
 
 namespace stickslip::theory {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "theory/transport/motion.hpp"
 
 namespace stickslip::detail {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "stickslip/base/equal.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/numerics/root.hpp"
 #include "stickslip/theory/noise.hpp"
 #include "theory/theory_moments.hpp"

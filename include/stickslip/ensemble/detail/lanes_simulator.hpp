@@ -17,7 +17,7 @@
 #include "stickslip/lanes/row.hpp"
 #include "stickslip/lanes/series_lanes.hpp"
 #include "stickslip/lanes/transpose.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/sliding/any_slider.hpp"
 
 namespace stickslip::detail {

@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "stickslip/base/equal.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/ensemble/detail/block.hpp"
 #include "stickslip/ensemble/member.hpp"
-#include "stickslip/error.hpp"
 #include "stickslip/ground/ground_motion.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/sliding/any_slider.hpp"
 #include "stickslip/sliding/detail/contact.hpp"
 #include "stickslip/sliding/detail/engine.hpp"

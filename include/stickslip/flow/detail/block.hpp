@@ -8,7 +8,7 @@
 #include "stickslip/flow/detail/maker.hpp"
 #include "stickslip/flow/polynomial.hpp"
 #include "stickslip/friction/law.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip::detail {
 

@@ -7,7 +7,7 @@
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/friction/law.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip::detail {
 

@@ -5,13 +5,13 @@
 
 #include "stickslip/base/equal.hpp"
 #include "stickslip/base/min_max.hpp"
+#include "stickslip/base/vector2.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/planar/detail/closing_slip.hpp"
 #include "stickslip/planar/detail/held_slip.hpp"
 #include "stickslip/planar/detail/level_along.hpp"
 #include "stickslip/planar/path.hpp"
-#include "stickslip/planar/vector.hpp"
 
 namespace stickslip::detail {
 

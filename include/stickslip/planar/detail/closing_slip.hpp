@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "stickslip/base/vector2.hpp"
 #include "stickslip/planar/detail/held_slip.hpp"
-#include "stickslip/planar/vector.hpp"
 
 namespace stickslip::detail {
 

@@ -5,13 +5,13 @@
 
 #include "stickslip/base/equal.hpp"
 #include "stickslip/base/min_max.hpp"
+#include "stickslip/base/vector2.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/planar/detail/along_load.hpp"
 #include "stickslip/planar/detail/level_along.hpp"
 #include "stickslip/planar/detail/path_series.hpp"
 #include "stickslip/planar/path.hpp"
-#include "stickslip/planar/vector.hpp"
 #include "stickslip/series/series.hpp"
 
 namespace stickslip::detail {

@@ -5,8 +5,8 @@
 
 #include "stickslip/base/equal.hpp"
 #include "stickslip/base/min_max.hpp"
+#include "stickslip/base/vector2.hpp"
 #include "stickslip/flow/closed_form.hpp"
-#include "stickslip/planar/vector.hpp"
 
 namespace stickslip::detail {
 

@@ -7,10 +7,10 @@
 
 #include "stickslip/base/equal.hpp"
 #include "stickslip/base/min_max.hpp"
+#include "stickslip/base/vector2.hpp"
 #include "stickslip/planar/detail/level_along.hpp"
 #include "stickslip/planar/detail/path_series.hpp"
 #include "stickslip/planar/path.hpp"
-#include "stickslip/planar/vector.hpp"
 #include "stickslip/series/series.hpp"
 
 namespace stickslip::detail {

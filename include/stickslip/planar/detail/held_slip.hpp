@@ -6,8 +6,8 @@
 
 #include "stickslip/base/equal.hpp"
 #include "stickslip/base/min_max.hpp"
+#include "stickslip/base/vector2.hpp"
 #include "stickslip/numerics/root.hpp"
-#include "stickslip/planar/vector.hpp"
 
 namespace stickslip {
 

@@ -3,11 +3,11 @@
 
 #include <cmath>
 
+#include "stickslip/base/vector2.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/planar/detail/held_slip.hpp"
 #include "stickslip/planar/detail/path_series.hpp"
 #include "stickslip/planar/path.hpp"
-#include "stickslip/planar/vector.hpp"
 
 namespace stickslip::detail {
 

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "stickslip/base/min_max.hpp"
+#include "stickslip/base/vector2.hpp"
 #include "stickslip/planar/detail/held_slip.hpp"
-#include "stickslip/planar/vector.hpp"
 
 namespace stickslip::detail {
 

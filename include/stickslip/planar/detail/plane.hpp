@@ -7,8 +7,9 @@
 #include <utility>
 
 #include "stickslip/base/equal.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/min_max.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/planar/detail/departure.hpp"
 #include "stickslip/planar/detail/heated.hpp"
@@ -19,10 +20,9 @@
 #include "stickslip/planar/segment.hpp"
 #include "stickslip/planar/slider.hpp"
 #include "stickslip/planar/state.hpp"
-#include "stickslip/sliding/detail/loop.hpp"
-#include "stickslip/sliding/detail/system.hpp"
+#include "stickslip/run/detail/loop.hpp"
+#include "stickslip/run/detail/system.hpp"
 #include "stickslip/sliding/observer.hpp"
-#include "stickslip/units.hpp"
 
 namespace stickslip::detail {
 

@@ -5,11 +5,11 @@
 
 #include "stickslip/base/equal.hpp"
 #include "stickslip/base/min_max.hpp"
+#include "stickslip/base/vector2.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/flow/power_series.hpp"
 #include "stickslip/planar/detail/path_series.hpp"
 #include "stickslip/planar/path.hpp"
-#include "stickslip/planar/vector.hpp"
 
 namespace stickslip::detail {
 

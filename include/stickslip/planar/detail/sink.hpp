@@ -1,10 +1,10 @@
 // What a motion in the plane is shown to while it is computed, for code that is compiled once for all laws.
 #pragma once
 
+#include "stickslip/base/vector2.hpp"
 #include "stickslip/planar/observer.hpp"
 #include "stickslip/planar/path.hpp"
 #include "stickslip/planar/state.hpp"
-#include "stickslip/planar/vector.hpp"
 #include "stickslip/sliding/response.hpp"
 
 namespace stickslip::detail {

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/function.hpp"
 #include "stickslip/base/min_max.hpp"
-#include "stickslip/error.hpp"
 #include "stickslip/run/response.hpp"
 
 namespace stickslip::detail {

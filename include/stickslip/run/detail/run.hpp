@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/min_max.hpp"
-#include "stickslip/error.hpp"
-#include "stickslip/planar/vector.hpp"
+#include "stickslip/base/vector2.hpp"
 #include "stickslip/run/detail/event_log.hpp"
 #include "stickslip/run/response.hpp"
 

@@ -7,19 +7,19 @@
 #include <utility>
 
 #include "stickslip/base/equal.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/min_max.hpp"
-#include "stickslip/error.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/flow/detail/maker.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/numerics/root.hpp"
+#include "stickslip/run/detail/loop.hpp"
+#include "stickslip/run/detail/system.hpp"
 #include "stickslip/sliding/detail/bounds.hpp"
 #include "stickslip/sliding/detail/load.hpp"
-#include "stickslip/sliding/detail/loop.hpp"
 #include "stickslip/sliding/detail/one_step.hpp"
-#include "stickslip/sliding/detail/system.hpp"
 #include "stickslip/sliding/observer.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip::detail {
 

@@ -7,7 +7,7 @@
 #include "stickslip/base/equal.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 
 namespace stickslip::detail {
 

@@ -7,8 +7,8 @@
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/ground/segment.hpp"
-#include "stickslip/state.hpp"
-#include "stickslip/stops.hpp"
+#include "stickslip/slider/stops.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip::detail {
 

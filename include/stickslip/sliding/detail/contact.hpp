@@ -6,6 +6,7 @@
 
 #include "stickslip/base/equal.hpp"
 #include "stickslip/base/min_max.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/flow/polynomial.hpp"
 #include "stickslip/flow/power_series.hpp"
 #include "stickslip/flow/remembering.hpp"
@@ -14,8 +15,7 @@
 #include "stickslip/sliding/detail/axis.hpp"
 #include "stickslip/sliding/detail/bounds.hpp"
 #include "stickslip/sliding/detail/one_step.hpp"
-#include "stickslip/state.hpp"
-#include "stickslip/units.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip {
 

@@ -3,15 +3,15 @@
 
 #include <cmath>
 
+#include "stickslip/base/units.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/run/detail/run.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/sliding/detail/sink.hpp"
 #include "stickslip/sliding/response.hpp"
-#include "stickslip/state.hpp"
-#include "stickslip/units.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip::detail {
 

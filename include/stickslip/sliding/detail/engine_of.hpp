@@ -13,7 +13,7 @@
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/ground_motion.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/sliding/detail/axis.hpp"
 #include "stickslip/sliding/detail/bounds.hpp"
 #include "stickslip/sliding/detail/contact.hpp"
@@ -22,7 +22,7 @@
 #include "stickslip/sliding/detail/run.hpp"
 #include "stickslip/sliding/detail/sink.hpp"
 #include "stickslip/sliding/detail/with_flows.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip::detail {
 

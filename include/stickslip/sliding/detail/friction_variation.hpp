@@ -11,16 +11,16 @@
 #include <vector>
 
 #include "stickslip/base/min_max.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/friction/multi_pendulum.hpp"
 #include "stickslip/friction/static_kinetic.hpp"
-#include "stickslip/pendulum_memory.hpp"
 #include "stickslip/sliding/observer.hpp"
 #include "stickslip/sliding/parameter.hpp"
-#include "stickslip/state.hpp"
-#include "stickslip/units.hpp"
+#include "stickslip/state/pendulum_memory.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip::detail {
 

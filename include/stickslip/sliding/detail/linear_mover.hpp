@@ -15,7 +15,7 @@
 #include "stickslip/flow/damped.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/segment.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/sliding/advance.hpp"
 #include "stickslip/sliding/detail/axis.hpp"
 #include "stickslip/sliding/detail/bounds.hpp"
@@ -25,7 +25,7 @@
 #include "stickslip/sliding/detail/with_flows.hpp"
 #include "stickslip/sliding/impacts.hpp"
 #include "stickslip/sliding/observer.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip::detail {
 
@@ -183,8 +183,12 @@ class LinearMoverOf final : public LinearMover {
       const auto of = [&](auto&& level, Direction direction) { return level(flows_.law_now(State(), 1), direction); };
       const auto resists = [](const auto& law, Direction way) { return stickslip::resist(law, 0.0, 0.0, way); };
       const auto holds = [](const auto& law, Direction way) { return stickslip::hold(law, 0.0, way); };
-      levels_ = {of(resists, Direction::forward), of(resists, Direction::backward), of(holds, Direction::forward),
-                 of(holds, Direction::backward), bounds_,                         &step(slider_.stiffness())};
+      levels_ = {of(resists, Direction::forward),
+                 of(resists, Direction::backward),
+                 of(holds, Direction::forward),
+                 of(holds, Direction::backward),
+                 bounds_,
+                 &step(slider_.stiffness())};
     }
   }
 

@@ -10,7 +10,7 @@
 #include "stickslip/flow/detail/maker.hpp"
 #include "stickslip/flow/sinusoidal.hpp"
 #include "stickslip/ground/segment.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip::detail {
 

@@ -11,7 +11,7 @@
 #include "stickslip/friction/law.hpp"
 #include "stickslip/sliding/detail/load.hpp"
 #include "stickslip/sliding/observer.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip::detail {
 

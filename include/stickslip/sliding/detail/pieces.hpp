@@ -3,7 +3,7 @@
 
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/sliding/detail/engine.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip::detail {
 

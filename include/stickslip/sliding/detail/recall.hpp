@@ -14,7 +14,7 @@
 #include "stickslip/sliding/detail/run.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/sliding/trajectory.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip::detail {
 

@@ -13,7 +13,7 @@
 #include "stickslip/sliding/detail/sink.hpp"
 #include "stickslip/sliding/observer.hpp"
 #include "stickslip/sliding/response.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip::detail {
 

@@ -3,12 +3,12 @@
 
 #include <cmath>
 
+#include "stickslip/base/units.hpp"
 #include "stickslip/ground/segment.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 #include "stickslip/sliding/detail/bounds.hpp"
 #include "stickslip/sliding/detail/engine.hpp"
-#include "stickslip/state.hpp"
-#include "stickslip/units.hpp"
+#include "stickslip/state/state.hpp"
 
 namespace stickslip::detail {
 

@@ -10,16 +10,16 @@
 #include <utility>
 
 #include "stickslip/base/equal.hpp"
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/extremes.hpp"
 #include "stickslip/base/min_max.hpp"
-#include "stickslip/error.hpp"
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/run/detail/run.hpp"
 #include "stickslip/sliding/detail/engine.hpp"
 #include "stickslip/sliding/detail/resting.hpp"
 #include "stickslip/sliding/detail/sink.hpp"
-#include "stickslip/state.hpp"
+#include "stickslip/state/state.hpp"
 #ifdef STICKSLIP_LIBRARY
 #include "stickslip/sliding/detail/pieces.hpp"
 #endif

@@ -8,8 +8,8 @@
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/sliding/observer.hpp"
 #include "stickslip/sliding/response.hpp"
-#include "stickslip/state.hpp"
-#include "stickslip/surface_heat.hpp"
+#include "stickslip/state/state.hpp"
+#include "stickslip/state/surface_heat.hpp"
 
 namespace stickslip::detail {
 

@@ -10,7 +10,7 @@
 #include "stickslip/flow/sinusoidal.hpp"
 #include "stickslip/flow/taylor.hpp"
 #include "stickslip/friction/law.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 
 namespace stickslip::detail {
 

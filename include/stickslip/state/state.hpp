@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "stickslip/pendulum_memory.hpp"
-#include "stickslip/surface_heat.hpp"
+#include "stickslip/state/pendulum_memory.hpp"
+#include "stickslip/state/surface_heat.hpp"
 
 namespace stickslip {
 

@@ -1,4 +1,4 @@
-#include "stickslip/identity.hpp"
+#include "stickslip/slider/identity.hpp"
 
 #include <array>
 #include <bit>

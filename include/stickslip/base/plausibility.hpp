@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "stickslip/units.hpp"
+#include "stickslip/base/units.hpp"
 
 namespace stickslip {
 

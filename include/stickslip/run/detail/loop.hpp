@@ -6,8 +6,8 @@
 
 #include "stickslip/base/equal.hpp"
 #include "stickslip/flow/closed_form.hpp"
-#include "stickslip/sliding/detail/system.hpp"
-#include "stickslip/sliding/response.hpp"
+#include "stickslip/run/detail/system.hpp"
+#include "stickslip/run/response.hpp"
 
 namespace stickslip::detail {
 

@@ -1,4 +1,4 @@
-#include "stickslip/viscous.hpp"
+#include "stickslip/slider/viscous.hpp"
 
 #include "bindings.hpp"
 

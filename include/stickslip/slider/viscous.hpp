@@ -2,7 +2,7 @@
 #pragma once
 
 #include "stickslip/friction/coulomb.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 
 namespace stickslip {
 

@@ -1,9 +1,9 @@
 // What the event loop asks a sliding system, and what a system asks the flows of its law.
 #pragma once
 
+#include <concepts>
+
 #include "stickslip/flow/closed_form.hpp"
-#include "stickslip/sliding/observer.hpp"
-#include "stickslip/state.hpp"
 
 namespace stickslip::detail {
 

@@ -15,7 +15,7 @@
 #include "stickslip/friction/law.hpp"
 #include "stickslip/friction/static_kinetic.hpp"
 #include "stickslip/ground/ground_motion.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/slider/slider.hpp"
 
 namespace stickslip {
 namespace detail {

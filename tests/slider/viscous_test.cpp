@@ -1,5 +1,5 @@
 // A slider on a damper without friction: closed forms, energy, limits, and ensembles of it.
-#include "stickslip/viscous.hpp"
+#include "stickslip/slider/viscous.hpp"
 
 #include <algorithm>
 #include <array>

@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "stickslip/base/equal.hpp"
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
+#include "stickslip/base/units.hpp"
 #include "stickslip/friction/law.hpp"
-#include "stickslip/spring.hpp"
-#include "stickslip/stops.hpp"
-#include "stickslip/units.hpp"
+#include "stickslip/slider/spring.hpp"
+#include "stickslip/slider/stops.hpp"
 
 namespace stickslip {
 

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "stickslip/identity.hpp"
+#include "stickslip/slider/identity.hpp"
 #include "stickslip/sliding/any_slider.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "stickslip/error.hpp"
+#include "stickslip/base/error.hpp"
 
 namespace stickslip {
 

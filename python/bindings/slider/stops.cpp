@@ -1,4 +1,4 @@
-#include "stickslip/stops.hpp"
+#include "stickslip/slider/stops.hpp"
 
 #include <pybind11/stl.h>
 

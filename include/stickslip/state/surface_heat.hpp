@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "stickslip/base/error.hpp"
 #include "stickslip/base/min_max.hpp"
-#include "stickslip/error.hpp"
 
 namespace stickslip {
 
