@@ -243,7 +243,6 @@ _RESULTS = (
 def to_json(response: StructureResponse) -> str:
     """The results and histories as JSON; see `StructureResponse.to_json`."""
     columns, units = _columns(response)
-    events = response.events
     document = {
         "stickslip": build_info()["version"],
         "system": repr(response.system),
@@ -252,7 +251,7 @@ def to_json(response: StructureResponse) -> str:
         **{name: getattr(response, name) for name in _RESULTS},
         "units": units,
         **columns,
-        "events": [dict(zip(events.dtype.names or (), row)) for row in events.tolist()],
+        "events": response.events,
     }
     if has_floors(response):
         document["peak_floor_acceleration"] = response.floors.peak_acceleration

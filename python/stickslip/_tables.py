@@ -270,7 +270,7 @@ def to_csv(response: Response | PlanarResponse, path: str | os.PathLike[str]) ->
 
 def to_json(response: Response | PlanarResponse) -> str:
     """The results and histories of a response as JSON; see `Response.to_json`."""
-    events, histories = response.events, _histories(response)
+    histories = _histories(response)
     document = {
         "stickslip": build_info()["version"],
         "slider": repr(response.slider),
@@ -283,7 +283,7 @@ def to_json(response: Response | PlanarResponse) -> str:
         "units": {"time": "s"} | {name: unit for name, unit, _ in histories if unit},
         "time": response.time,
         **{name: history(response, name) for name, _, _ in histories},
-        "events": [dict(zip(events.dtype.names or (), row)) for row in events.tolist()],
+        "events": response.events,
     }
     return json_text(document)
 
@@ -300,7 +300,15 @@ def _results(response: Response | PlanarResponse) -> dict[str, Any]:
 
 
 def json_text(document: Any) -> str:
-    """A document as JSON: exact doubles, arrays as lists, null for NaN and infinity."""
+    """A document as JSON: exact doubles, arrays as lists, null for NaN and infinity.
+
+    A structured array is a list of objects.
+    """
+    if isinstance(document, np.ndarray) and document.dtype.names:
+        names = document.dtype.names
+        text = "{" + ", ".join(f"{json.dumps(name)}: %s" for name in names) + "}"
+        rows = zip(*(_texts_of(document[name]) for name in names))
+        return "[" + ", ".join(text % row for row in rows) + "]"
     if isinstance(document, np.ndarray) and document.ndim < 2:
         if document.ndim == 1 and document.dtype == np.float64:
             return number_list(document)
@@ -316,6 +324,20 @@ def json_text(document: Any) -> str:
         if isinstance(document, (list, tuple, np.ndarray)):
             return "[" + ", ".join(map(json_text, document)) + "]"
         raise
+
+
+def _texts_of(column: NDArray[Any]) -> list[str]:
+    """The values of a column as JSON."""
+    if column.ndim > 1:
+        parts = [_texts_of(column[:, i]) for i in range(column.shape[1])]
+        return ["[" + ", ".join(values) + "]" for values in zip(*parts)]
+    if column.dtype != np.float64:
+        known = {value: json.dumps(value) for value in set(column.tolist())}
+        return [known[value] for value in column.tolist()]
+    texts = number_texts(column)
+    for i in np.flatnonzero(~np.isfinite(column)):
+        texts[i] = "null"
+    return texts
 
 
 def has_floors(response: StructureResponse) -> bool:

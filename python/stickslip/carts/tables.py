@@ -72,7 +72,6 @@ _RESULTS = (
 def to_json(response: CartResponse) -> str:
     """The results and histories as JSON; see `CartResponse.to_json`."""
     columns, units = _columns(response)
-    events = response.events
     document = {
         "stickslip": build_info()["version"],
         "cart": repr(response.cart),
@@ -81,7 +80,7 @@ def to_json(response: CartResponse) -> str:
         **{name: getattr(response, name) for name in _RESULTS},
         "units": units,
         **columns,
-        "events": [dict(zip(events.dtype.names or (), row)) for row in events.tolist()],
+        "events": response.events,
     }
     return json_text(document)
 

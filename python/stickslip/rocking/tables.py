@@ -71,7 +71,6 @@ _RESULTS = (
 def to_json(response: RockingResponse) -> str:
     """The results and histories as JSON; see `RockingResponse.to_json`."""
     columns, units = _columns(response)
-    events = response.events
     names = (*_RESULTS, *(_OF_RIGID if isinstance(response.block, RockingBlock) else ()))
     document = {
         "stickslip": build_info()["version"],
@@ -81,7 +80,7 @@ def to_json(response: RockingResponse) -> str:
         **{name: getattr(response, name) for name in names},
         "units": units,
         **columns,
-        "events": [dict(zip(events.dtype.names or (), row)) for row in events.tolist()],
+        "events": response.events,
     }
     return json_text(document)
 
