@@ -32,7 +32,8 @@ TEST_CASE("a scaled motion meets its target", "[processing]") {
   CHECK_THROWS_WITH(scaled_to(motion, {}), ContainsSubstring("exactly one of PGA, Arias intensity and PGV, got 0"));
   CHECK_THROWS_WITH(scaled_to(motion, {.peak_acceleration = 1, .peak_velocity = 1}), ContainsSubstring("got 2"));
   for (const double bad : {0.0, -1.0, infinity, not_a_number}) {
-    CHECK_THROWS_WITH(scaled_to(motion, {.peak_acceleration = bad}), ContainsSubstring("peak acceleration (pga_g) must be positive and finite, got"));
+    CHECK_THROWS_WITH(scaled_to(motion, {.peak_acceleration = bad}),
+                      ContainsSubstring("peak acceleration (pga_g) must be positive and finite, got"));
     CHECK_THROWS_AS(scaled_to(motion, {.arias_intensity = bad}), std::invalid_argument);
     CHECK_THROWS_AS(scaled_to(motion, {.peak_velocity = bad}), std::invalid_argument);
   }
@@ -69,7 +70,8 @@ TEST_CASE("a motion is cut where it is asked to be", "[processing]") {
   CHECK(ground_history(cut(whole, 0, middle)).velocity.back() +
             ground_history(cut(whole, middle, 40)).velocity.back() ==
         Approx(ground_history(whole).velocity.back()).epsilon(1e-12));
-  CHECK_THROWS_WITH(cut(motion, -0.1, 1), ContainsSubstring("begin must be within the motion, from 0 to 2 s, got -0.1 s"));
+  CHECK_THROWS_WITH(cut(motion, -0.1, 1),
+                    ContainsSubstring("begin must be within the motion, from 0 to 2 s, got -0.1 s"));
   CHECK_THROWS_WITH(cut(motion, 0, 2.1), ContainsSubstring("end must be within the motion, from 0 to 2 s, got 2.1 s"));
   CHECK_THROWS_WITH(cut(motion, 1, 1), ContainsSubstring("end must be after begin, 1 s, got 1 s"));
   CHECK_THROWS_AS(cut(motion, not_a_number, 1), std::invalid_argument);

@@ -254,7 +254,8 @@ def test_every_public_header_stands_in_the_reference():
     folder = ROOT / "include" / "stickslip"
     headers = {file.relative_to(folder).as_posix() for file in folder.rglob("*.hpp")}
     inner = ("base/", "lanes/")  # and detail/ of each folder: for the library's own use
-    headers = {
+    shown = {f"base/{name}.hpp" for name in ("error", "plausibility", "units", "vector2")}
+    headers = shown | {
         header for header in headers if not header.startswith(inner) and "/detail/" not in header
     }
     # two that include all others, and one that users do not need

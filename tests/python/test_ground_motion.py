@@ -318,7 +318,9 @@ def test_a_motion_is_scaled_to_a_target():
     for targets, count in (({}, 0), ({"pga_g": 1, "pgv": 1}, 2)):
         with pytest.raises(ValueError, match=f"exactly one .* got {count}"):
             NOISE.scaled_to(**targets)
-    with pytest.raises(ValueError, match="positive and finite PGV, got -1 m/s"):
+    with pytest.raises(
+        ValueError, match=r"peak velocity \(pgv\) must be positive and finite, got -1 m/s"
+    ):
         NOISE.scaled_to(pgv=-1)
     with pytest.raises(ValueError, match="zeros only"):
         ss.GroundMotion([0, 0], dt=1).scaled_to(pga_g=1)

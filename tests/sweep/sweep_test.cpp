@@ -217,6 +217,38 @@ TEST_CASE("sliders whose motion is linear between events are swept as integrate 
   });
 }
 
+TEST_CASE("with short steps sliders on springs pass their events as integrate moves them", "[sweep]") {
+  using Any = std::variant<Slider<Coulomb>, Slider<StaticKinetic<Coulomb>>>;
+  std::mt19937_64 bits(6);
+  const auto draw = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(bits); };
+  std::vector<GroundMotion> motions;
+  for (std::uint64_t seed = 0; seed < size(8, 3); ++seed) motions.push_back(quake(900 + seed));
+  motions.emplace_back(gaussian(7, 400, 2), 0.02);  // begins beyond the level
+  std::vector<Any> sliders;
+  while (sliders.size() < 64) {
+    const double wn = draw(0, 7);
+    Mounting mounting{.natural_frequency = wn, .damping = bits() % 2 == 0 ? draw(0, 0.6) * wn : 0};
+    mounting.one_way = bits() % 4 == 0;
+    if (bits() % 4 == 0) mounting.stops = Stops(draw(0.05, 0.2), draw(0.05, 0.2), 0.3);
+    const Coulomb law = block(bits);
+    if (!(law.forward() > 0)) continue;  // would never rest
+    if (bits() % 3 == 0)
+      sliders.push_back(Slider(StaticKinetic(law, 1.4 * law.forward(), 1.4 * law.backward()), mounting));
+    else
+      sliders.push_back(Slider(law, mounting));
+  }
+  on_each_instruction_set([&](const std::string& name) {
+    const SweepOptions options{.settle = true, .threads = 1};
+    const SweepTable table = sweep(sliders, motions, options);
+    const Differences d = differences(table, sliders, motions, options);
+    INFO(name);
+    CHECK(2 * d.moved > d.combinations);
+    CHECK(d.events == 0);
+    CHECK(d.error < 1e-11);
+    CHECK(table.failures.empty());
+  });
+}
+
 TEST_CASE("settled, in one polarity or both, with sliders of all kinds, a sweep is what integrate says", "[sweep]") {
   using Any = std::variant<Slider<Coulomb>, Slider<Caster>, Slider<VelocityDependent>>;
   const std::vector<Any> mixed{Slider(Coulomb(0.3)),           Slider(Caster(0.5, 1e6)),

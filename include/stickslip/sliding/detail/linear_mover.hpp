@@ -183,10 +183,11 @@ class LinearMoverOf final : public LinearMover {
       const auto of = [&](auto&& level, Direction direction) { return level(flows_.law_now(State(), 1), direction); };
       const auto resists = [](const auto& law, Direction way) { return stickslip::resist(law, 0.0, 0.0, way); };
       const auto holds = [](const auto& law, Direction way) { return stickslip::hold(law, 0.0, way); };
+      const double backward = slider.mounting().one_way ? never : of(holds, Direction::backward);
       levels_ = {of(resists, Direction::forward),
                  of(resists, Direction::backward),
                  of(holds, Direction::forward),
-                 of(holds, Direction::backward),
+                 backward,
                  bounds_,
                  &step(slider_.stiffness())};
     }
