@@ -46,20 +46,21 @@ class Recall {
     std::size_t i = 0;
     for (double begin = pieces.time(0), end; i < motion_.segments() && begin < until; begin = end, ++i) {
       end = pieces.time(i + 1);
-      segment(begin, end, pieces.segment(i), i + 1);
+      segment(begin, end, pieces.segment(i), response_.displacement[i + 1], response_.velocity[i + 1]);
     }
     const std::size_t last = response_.displacement.size() - 1;
     for (double begin = pieces.time(i), end; begin < until; begin = end) {
-      end = i < last ? std::min(pieces.time(i + 1), until) : until;
-      i = std::min(i + 1, last);
-      segment(begin, end, load_segment(Segment{end - begin, 0, 0}, Slope(slope)), i);
+      const bool sampled = i < last && pieces.time(i + 1) < until;
+      end = sampled ? pieces.time(++i) : until;
+      segment(begin, end, load_segment(Segment{end - begin, 0, 0}, Slope(slope)),
+              sampled ? response_.displacement[i] : response_.residual, sampled ? response_.velocity[i] : 0);
     }
     reader_.event(EventKind::end, until, state_, load(line_.duration));
   }
 
  private:
-  // A segment to a sample.
-  void segment(double begin, double end, const LoadSegment& line, std::size_t sample) {
+  // A segment, at whose end the slider has this displacement and velocity.
+  void segment(double begin, double end, const LoadSegment& line, double displacement, double velocity) {
     begin_ = begin, end_ = end, now_ = 0;
     line_ = line;
     const auto& events = response_.events;
@@ -69,7 +70,7 @@ class Recall {
       reader_.event(event.kind, event.time, state_, load(now_));
       pass(event);
     }
-    go(line.duration, response_.displacement[sample], response_.velocity[sample]);
+    go(line.duration, displacement, velocity);
   }
 
   // The slider arrives at a place, within the segment.
