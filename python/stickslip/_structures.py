@@ -58,6 +58,7 @@ class Modes(Tabular):
     participation: NDArray[np.float64]
     effective_masses: NDArray[np.float64]
     shapes: NDArray[np.float64]
+    _index = "mode"
 
     def __repr__(self) -> str:
         count = len(self.frequencies)
@@ -82,20 +83,6 @@ class Modes(Tabular):
             "cumulative_mass": np.cumsum(mass) / np.sum(mass),
         }
         return columns, {"frequency": "rad/s", "period": "s"}
-
-    def to_dataframe(self) -> Any:
-        """Convert to a pandas DataFrame over the mode, with the units in ``attrs["units"]``.
-
-        Returns
-        -------
-        pandas.DataFrame
-
-        Raises
-        ------
-        ImportError
-            pandas is missing.
-        """
-        return frame_of(*self._table(), "Modes.to_dataframe", index="mode")
 
     def plot(self, *, figure: FigureBase | None = None, title: str | None = None) -> Figure:
         """Plot the shapes of the first modes by height.

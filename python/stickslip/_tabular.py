@@ -6,7 +6,7 @@ import os
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,6 +32,8 @@ _MOST_ROWS = 20  # in a notebook
 class Tabular(ABC):
     """An object with columns of equal length, with names and units as in `docs/conventions.md`."""
 
+    _index: ClassVar[str | None] = None  # the column that is the index of a DataFrame
+
     @abstractmethod
     def _table(self) -> tuple[Columns, Mapping[str, str]]:
         """The columns by name, and their units by name."""
@@ -55,7 +57,7 @@ class Tabular(ABC):
         ImportError
             pandas is missing.
         """
-        return frame_of(*self._table(), f"{type(self).__name__}.to_dataframe")
+        return frame_of(*self._table(), f"{type(self).__name__}.to_dataframe", self._index)
 
     def to_csv(self, file: str | os.PathLike[str]) -> Path:
         """Write a CSV file with the unit in each head; numbers read back to the same double.

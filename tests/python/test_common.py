@@ -437,7 +437,7 @@ CALLS = {
     "integrate a block": "integrate(ROCKS[0], EVEN, rotation=0.001, rate=0.001)",
     "integrate a cart": "integrate(CARTS[0], PAIR, velocity=(0, 0), yaw=0.1, yaw_rate=0.1)",
     "State": "State(0.1, 0.2, 0.3)",
-    "StructureState": "StructureState([0.1], [0.2], displacement=0.1, velocity=0.2, sliding_distance=0.3)",
+    "StructureState": "StructureState([0.1], [0.2], displacement=0.1, velocity=0.2)",
     "cut": "EVEN.cut(0, 0.2)",
     "resampled": "EVEN.resampled(0.05)",
     "scaled_to": "EVEN.scaled_to(pga_g=0.5)",

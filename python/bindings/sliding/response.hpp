@@ -57,8 +57,8 @@ inline constexpr const char* peak_force_doc =
     R"(Largest |friction + damper + spring| over all time, not only at samples [m/s^2].
 
 Of vectors their resultant, of a structure that of its interface per unit of the reference mass; the impulses of stops do
-not count. Found by a search within each step of the motion, which is integrated once more on first access; accurate to
-1e-9.)";
+not count. On first access the motion is integrated once more, with a search within each slip; the force of friction
+without a spring follows from samples and events. Accurate to 1e-9.)";
 inline constexpr const char* peak_force_time_doc =
     "Time of `peak_force` [s], to 1e-6 of a slip; the first, where it is constant.";
 
