@@ -69,6 +69,12 @@ TEST_CASE("a stop that is nearly none has a small margin", "[margins]") {
   }
 }
 
+TEST_CASE("what the end of the ground motion lets go has the margin of the load after it", "[margins]") {
+  // The spring pulls with 1.2, of which the ground holds 1 until it stands still.
+  const Slider slider(StaticKinetic(Coulomb(0.5), 1.15), 2);
+  CHECK(margins_of(slider, loads({1, 1, 1}), from(0.3, 0, true)).load == Approx(1.2 / 1.15 - 1).epsilon(1e-12));
+}
+
 TEST_CASE("margins follow the normal force and the spring", "[margins]") {
   // N from g to 0.9 g and back under a load of 1, a level of 1.25.
   const double g = standard_gravity;

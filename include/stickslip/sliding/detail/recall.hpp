@@ -63,8 +63,12 @@ class Recall {
   void segment(double begin, double end, const LoadSegment& line, double displacement, double velocity) {
     begin_ = begin, end_ = end, now_ = 0;
     line_ = line;
+    // What breaks away at its end does so under the load of the next one: after the ground motion that load is another.
     const auto& events = response_.events;
-    for (; next_ + 1 < events.size() && events[next_].time <= end; ++next_) {
+    const auto within = [&](const Event& event) {
+      return event.time < end || (equal(event.time, end) && event.kind != EventKind::breakaway);
+    };
+    for (; next_ + 1 < events.size() && within(events[next_]); ++next_) {
       const Event& event = events[next_];
       go(std::clamp(event.time - begin, now_, line.duration), event.displacement, event.velocity);
       reader_.event(event.kind, event.time, state_, load(now_));
