@@ -211,32 +211,10 @@ template <class Law>
   }
 }
 
-/// Reads forces and margins in one pass, which costs as much as the integration.
-struct ForcesAndMargins final : TrajectoryReader {
-  explicit ForcesAndMargins(const Trajectory& trajectory) : forces(trajectory), margins(trajectory) {}
-  void arc(const Arc& arc) override {
-    forces.arc(arc);
-    margins.arc(arc);
-  }
-  void event(EventKind kind, double time, const State& state, const Load& load) override {
-    forces.event(kind, time, state, load);
-    margins.event(kind, time, state, load);
-  }
-  detail::ForcesReader forces;
-  detail::MarginReader margins;
-};
-
 /// The margins; keeps the forces.
 Margins read(const Trajectory& trajectory) {
-  const double end = trajectory.end();
-  if (trajectory.time(response.displacement.size() - 1) > end) {  // they end at different times
-    floor_forces = forces(trajectory);
-    return margins(trajectory);
-  }
-  ForcesAndMargins reader(trajectory);
-  trajectory.read(reader, end);
-  floor_forces = std::move(reader.forces.forces);
-  return reader.margins.margins;
+  floor_forces = forces(trajectory);
+  return margins(trajectory);
 }
 
 double size(double residual) { return residual; }
