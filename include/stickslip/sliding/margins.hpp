@@ -70,7 +70,7 @@ class MarginReader final : public TrajectoryReader {
       else  // no copy
         approach_at(arc.start);
     };
-    // Where the last arc ended in the same, all is said of the beginning.
+    // An arc that goes on where the last one ended, under the same load, has no new beginning.
     const Load begins = arc.load(0), ends = arc.load(arc.duration);
     if (!(went_on_ && rested_ == arc.rests() && equal(begins.load, ended_.load) && equal(begins.normal, ended_.normal)))
       pass(0, begins);

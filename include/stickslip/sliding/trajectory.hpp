@@ -41,6 +41,14 @@ namespace detail {
 template <class Reader>
 class Recall;
 class Tracer;
+
+/// Load and normal force at a time of a segment [s]; at its ends exactly those there.
+inline Load load_at(const LoadSegment& line, double t) noexcept {
+  if (!(t > 0)) return {line.load_start, line.normal_start};
+  if (!(t < line.duration)) return {line.load_end, line.normal_end};
+  return {line.load(t), line.normal(t)};
+}
+
 }  // namespace detail
 
 /// An arc of a trajectory: a part of a motion with one mode and one direction, within one segment of the ground motion.
@@ -64,9 +72,7 @@ class Arc {
       const double phase = wave_->phase + wave_->omega * (offset_ + t);
       return {wave_->amplitude * std::cos(phase), line_.normal_start};
     }
-    if (!(t > 0)) return {line_.load_start, line_.normal_start};
-    if (!(t < duration)) return {line_.load_end, line_.normal_end};
-    return {line_.load(t), line_.normal(t)};
+    return detail::load_at(line_, t);
   }
 
   /// N+/g, by which friction is multiplied; 0 in flight.

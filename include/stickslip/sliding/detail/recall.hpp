@@ -105,11 +105,7 @@ class Recall {
     if (!slides_) state_.mode = Mode::stuck;
   }
 
-  Load load(double time) const noexcept {
-    if (!(time > 0)) return {line_.load_start, line_.normal_start};
-    if (!(time < line_.duration)) return {line_.load_end, line_.normal_end};
-    return {line_.load(time), line_.normal(time)};
-  }
+  Load load(double time) const noexcept { return load_at(line_, time); }
   LoadSegment part(double from, double to) const noexcept {
     const Load first = load(from), last = load(to);
     return {to - from, first.load, last.load, first.normal, last.normal};
