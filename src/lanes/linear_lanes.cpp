@@ -144,7 +144,7 @@ HWY_INLINE bool pass_events(LinearGroup& group, std::size_t k, LinearLane& lane,
     }
     const LinearSlip slip{step, u, net, sign * gain * (h * h)};
     const SlipNow end = slip.at(left);
-    const double limit = LinearLevels::limit(y, levels->room(sign, sign * y));
+    const double limit = LinearRegime::limit_of(y, levels->room(sign, sign * y));
     if (!(y + end.distance < limit)) return false;
     if (end.speed > 0) {
       const double begins = net - slip.damping * u, ends = end.acceleration;

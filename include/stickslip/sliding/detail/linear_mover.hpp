@@ -87,6 +87,33 @@ struct LinearRegime {
   /// changes, for certain, while y is below `limit`.
   double sign = 0, base = 0, limit = 0;
   const LinearStepOf* step = nullptr;
+
+  /// @param forward, backward  what is held in each direction, beside the pull of the spring [m/s^2]
+  static LinearRegime at_rest(double pull, double forward, double backward) noexcept {
+    const double unsure = round_off * std::abs(pull);
+    LinearRegime regime;
+    regime.low = pull - (1 - round_off) * (backward - unsure);
+    regime.high = pull + (1 - round_off) * (forward - unsure);
+    return regime;
+  }
+  /// @param level  at y [m/s^2]; it rises with y by `rises` [1/s^2], which the step contains
+  /// @param room   from y on [m]
+  static LinearRegime sliding(double sign, double y, double level, double rises, double room,
+                              const LinearStepOf& step) noexcept {
+    LinearRegime regime;
+    regime.sign = sign;
+    regime.base = level - rises * y;
+    regime.step = &step;
+    regime.limit = step.one_arch && std::isfinite(level) ? limit_of(y, room) : -never;
+    return regime;
+  }
+  /// Up to where y surely stays before what is ahead.
+  static double limit_of(double y, double room) noexcept {
+    return room < never ? y + room - round_off * (std::abs(y) + room) : never;
+  }
+
+ private:
+  static constexpr double round_off = 0x1p-40;
 };
 
 /// A slider whose levels are constant, on level ground: all that its motion depends on.
@@ -102,28 +129,12 @@ struct LinearLevels {
   }
 
   LinearRegime regime(const State& state) const noexcept {
-    constexpr double round_off = 0x1p-40;
-    const double x = state.displacement, pull = step->stiffness * x;
-    LinearRegime regime;
-    if (state.mode == Mode::stuck) {
-      const auto holds = [&](Direction direction, double level) {
-        return bounds.bound(direction, x, level) - round_off * std::abs(pull);
-      };
-      regime.low = pull - (1 - round_off) * holds(Direction::backward, hold_backward);
-      regime.high = pull + (1 - round_off) * holds(Direction::forward, hold_forward);
-      return regime;
-    }
-    regime.sign = stickslip::sign(direction_of(state.mode));
-    regime.base = resist(regime.sign);
-    regime.step = step;
-    regime.limit = limit(regime.sign * x, room(regime.sign, x));
-    if (!step->one_arch || !std::isfinite(regime.base)) regime.limit = -never;
-    return regime;
-  }
-
-  /// Up to where y surely stays before what is ahead.
-  static double limit(double y, double room) noexcept {
-    return room < never ? y + room - 0x1p-40 * (std::abs(y) + room) : never;
+    const double x = state.displacement;
+    if (state.mode == Mode::stuck)
+      return LinearRegime::at_rest(step->stiffness * x, bounds.bound(Direction::forward, x, hold_forward),
+                                   bounds.bound(Direction::backward, x, hold_backward));
+    const double sign = stickslip::sign(direction_of(state.mode));
+    return LinearRegime::sliding(sign, sign * x, resist(sign), 0, room(sign, x), *step);
   }
 };
 
@@ -197,30 +208,20 @@ class LinearMoverOf final : public LinearMover {
 
   LinearRegime regime(const State& state) const override {
     if (levels_) return levels_->regime(state);
-    constexpr double round_off = 0x1p-40;
-    const double x = state.displacement, pull = flows_.pull(x, 1);
-    LinearRegime regime;
+    const double x = state.displacement;
     if (state.mode == Mode::stuck) {
       const auto law = flows_.law_now(state, 1);
-      const auto holds = [&](Direction direction) {
-        return bounds_.bound(direction, x, hold(law, x, direction)) - round_off * std::abs(pull);
-      };
-      regime.low = pull - (1 - round_off) * holds(Direction::backward);
-      regime.high = pull + (1 - round_off) * holds(Direction::forward);
-      return regime;
+      const auto holds = [&](Direction direction) { return bounds_.bound(direction, x, hold(law, x, direction)); };
+      return LinearRegime::at_rest(flows_.pull(x, 1), holds(Direction::forward), holds(Direction::backward));
     }
     const Direction direction = direction_of(state.mode);
     const auto law = flows_.law_toward(direction, state, 1);
-    const double y = stickslip::sign(direction) * x, level = resist(law, x, std::abs(state.velocity), direction);
+    const double sign = stickslip::sign(direction);
     double rises = 0;
     if constexpr (form_of<Law> == Form::linear) rises = law.slope(direction);
-    const double room = std::min(flows_.surely_ahead(state), bounds_.room(direction, x));
-    regime.sign = stickslip::sign(direction);
-    regime.base = level - rises * y;
-    regime.step = &step(slider_.stiffness() + rises);
-    regime.limit = LinearLevels::limit(y, room);
-    if (!regime.step->one_arch || !std::isfinite(level)) regime.limit = -never;
-    return regime;
+    return LinearRegime::sliding(sign, sign * x, resist(law, x, std::abs(state.velocity), direction), rises,
+                                 std::min(flows_.surely_ahead(state), bounds_.room(direction, x)),
+                                 step(slider_.stiffness() + rises));
   }
 
   void slid([[maybe_unused]] State& state, [[maybe_unused]] double distance) const override {
