@@ -17,14 +17,14 @@ std::vector<Outcome> outcomes_of(std::size_t runs, const Options& options, Outco
   struct Stopped {};
   std::vector<Outcome> outcomes(runs);
   std::atomic<bool> stopped = false;
-  std::atomic<std::size_t> given = 0, done = 0;
+  std::atomic<std::size_t> done = 0;
   const std::function<void()> progress = [&] {
     if (stopped) throw Stopped{};
   };
   run_on_threads(
       options.threads, runs, stopped,
-      [&] {
-        for (std::size_t i; !stopped && (i = given++) < runs; ++done) outcomes[i] = outcome_of(i, progress);
+      [&](const NextTask& next) {
+        for (std::size_t i; next(i); ++done) outcomes[i] = outcome_of(i, progress);
       },
       [&] {
         if (options.progress) options.progress(done, runs);

@@ -72,21 +72,21 @@ Ensemble run_ensemble(EnsembleConfiguration configuration, const EnsembleTimes& 
 
   std::mutex mutex;  // guards everything below, and the ensemble
   std::atomic<bool> stopped = false;
-  std::uint64_t next = 0, done = 0;
+  std::uint64_t done = 0;
 
-  const auto work = [&] {
+  const auto work = [&](const NextTask& next) {
     const std::unique_ptr<Simulator> simulator = make_simulator();
     Block block(times, options.velocity_spectrum, options.ground_acceleration, stopped, in_plane);
-    for (;;) {
-      std::uint64_t number = 0;
+    for (std::size_t task; next(task);) {
+      const std::uint64_t number = first_block + task;
+      const std::size_t members = members_of(number);
       {
         const std::scoped_lock lock(mutex);
-        while (next < blocks && ensemble.parts().tallies.overlaps({0, first_block + next}))
-          done += members_of(first_block + next++);
-        if (next == blocks || stopped) break;
-        number = first_block + next++;
+        if (ensemble.parts().tallies.overlaps({0, number})) {  // `start` holds it
+          done += members;
+          continue;
+        }
       }
-      const std::size_t members = members_of(number);
       block.begin(members);
       simulator->simulate(number * block_size, members, block);
       Tally tally = block.finish();

@@ -42,9 +42,9 @@ EnsembleSensitivity ensemble_sensitivity(const EnsembleSensitivityOptions& optio
   std::vector<double> x(count);
 
   std::atomic<bool> stopped = false;
-  std::atomic<std::size_t> next = 0, done = 0;
-  const auto work = [&] {
-    for (std::size_t i; !stopped && (i = next++) < count; ++done) {
+  std::atomic<std::size_t> done = 0;
+  const auto work = [&](const NextTask& next) {
+    for (std::size_t i; next(i); ++done) {
       const MemberSensitivity one = differentiate(options.first_member + i);
       x[i] = one.residual;
       result.peak[i] = one.derivative.peak;

@@ -89,14 +89,10 @@ class Combinations {
   /// Do all tasks.
   /// @param work  `work(next)` does the tasks that `next(task)` gives, until it returns false
   template <class Work>
-  Table run(std::size_t tasks, Work&& work) {
-    std::atomic<std::size_t> given = 0;
-    const auto next = [&](std::size_t& task) { return !stopped_ && (task = given++) < tasks; };
-    run_on_threads(
-        options_.threads, tasks, stopped_, [&] { work(next); },
-        [this] {
-          if (options_.progress) options_.progress({done_, table_.peak.size()});
-        });
+  Table run(std::size_t tasks, const Work& work) {
+    run_on_threads(options_.threads, tasks, stopped_, work, [this] {
+      if (options_.progress) options_.progress({done_, table_.peak.size()});
+    });
     std::ranges::sort(table_.failures, {},
                       [](const SweepFailure& f) { return std::tuple(f.slider, f.record, f.polarity); });
     return std::move(table_);

@@ -54,16 +54,16 @@ Orientations orientations(const SweepSlider& slider, bool mirrored, const Ground
   result.residual = result.peak;
   std::mutex mutex;  // guards the failures
   std::atomic<bool> stopped = false;
-  std::atomic<std::size_t> next = 0, done = 0;
+  std::atomic<std::size_t> done = 0;
 
-  const auto work = [&] {
+  const auto work = [&](const NextTask& next) {
     const auto check_stopped = [&] {
       if (stopped) throw Stopped{};
     };
     const IntegrateOptions how{
         .settle = options.settle, .contact = options.contact, .progress = check_stopped, .may_end_in_flight = true};
     Response storage;
-    for (std::size_t task; !stopped && (task = next++) < tasks.size();) {
+    for (std::size_t task; next(task);) {
       const auto& [angle, places] = tasks[task];
       const auto fail = [&, &these = places](const std::exception& error) {
         const std::scoped_lock lock(mutex);
