@@ -69,4 +69,70 @@ TypeError
          (notes.empty() ? "" : "\n\nNotes\n-----\n" + notes);
 }
 
+/// What the tables of the responses of a system hold, for their documentation; further lines are indented by four.
+struct TableTexts {
+  std::string system;       // the attribute with what responds
+  std::string columns;      // sentences: the columns of a DataFrame, with units
+  std::string attributes;   // a list: the results in the attributes of a Dataset
+  std::string results;      // a list: the results in JSON, with units
+  std::string floors = "";  // sentences: what a Dataset holds of floors
+  std::string peaks = "";   // a list: what JSON holds of floors, with units
+};
+
+/// Defines the methods that make tables of a response, on its class: those of `stickslip._responses`.
+template <class Response>
+void define_tables(const py::module_& m, const char* name, const TableTexts& texts) {
+  constexpr const char* module = "stickslip._responses";
+  py::class_<Response>(m.attr(name))
+      .def("to_dataframe", in_python(module, "to_dataframe"),
+           (R"(Convert the histories to a pandas DataFrame.
+
+Returns
+-------
+pandas.DataFrame
+    The index is `time` [s]. )" +
+            texts.columns + R"(
+    `frame.attrs["units"]` has the units by name. The ground acceleration is 0 after the ground motion.
+
+Raises
+------
+ImportError
+    pandas is missing.)")
+               .c_str())
+      .def("to_xarray", in_python(module, "to_xarray"),
+           (R"(Convert the histories to an xarray Dataset over the coordinate `time` [s].
+
+Returns
+-------
+xarray.Dataset
+    The variables are the columns of `to_dataframe`, each with the attributes `long_name` and, if it has one, `units`.
+    )" + texts.floors +
+            "Attributes of the Dataset: `" + texts.system + "`, `motion` (its name), " + texts.attributes + R"(;
+    the name of a unit ends in `_units`.
+
+Raises
+------
+ImportError
+    xarray is missing.)")
+               .c_str())
+      .def("to_csv", csv_in(module, "to_csv"), py::arg("path"),
+           csv_doc("Write the histories to a CSV file, whole or not at all.",
+                   "A line of names with units, then one line per sample; every number reads back as the same double.")
+               .c_str())
+      .def("to_json", in_python(module, "to_json"),
+           (R"(The results and histories as one JSON document, for instance for a web page.
+
+Returns
+-------
+str
+    An object: `stickslip` (the version), `)" +
+            texts.system + "`, `motion` (its name), `components`,\n    " + texts.results + R"(;
+    `units` of the histories by name; `time` and the columns of `to_dataframe`, each a list with one value per sample;
+    `events`, each an object with the fields of the attribute of this name)" +
+            texts.peaks + R"(.
+    Every number reads back as the same double; NaN and infinity, which JSON lacks, are null.)")
+               .c_str())
+      .def("_repr_html_", in_python(module, "response_html"));
+}
+
 }  // namespace stickslip::python

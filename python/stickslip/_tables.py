@@ -1,4 +1,4 @@
-"""Tables for pandas, xarray, CSV files and notebooks; those of responses and ensembles.
+"""Tables for pandas, CSV files, JSON and notebooks; what a notebook shows of ensembles.
 
 Names of columns follow one rule everywhere. A column is a plain identifier without a unit, such as
 `peak` or `ground_acceleration`, in a DataFrame, a Dataset and JSON alike, so that `frame.peak` and
@@ -24,16 +24,12 @@ from ._core import (
     Ensemble,
     Estimate,
     Interval,
-    PlanarResponse,
-    Response,
-    StructureResponse,
-    build_info,
     number_list,
     number_texts,
 )
 from ._files import replacing
 from ._optional import optional
-from ._text import no_formula, printable
+from ._text import no_formula
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -49,11 +45,6 @@ __all__ = [
     "impact_probabilities",
     "json_text",
     "length_of",
-    "response_html",
-    "to_csv",
-    "to_dataframe",
-    "to_json",
-    "to_xarray",
     "write_csv",
 ]
 
@@ -100,19 +91,6 @@ def frame_of(columns: Columns, units: Mapping[str, str], who: str, index: str | 
     frame = pandas.DataFrame({name: column(given) for name, given in columns.items()})
     frame.attrs["units"] = {name: units[name] for name in columns if units.get(name)}
     return frame if index is None else frame.set_index(index)
-
-
-def dataset_of(
-    columns: Columns, units: Mapping[str, str], who: str, attrs: Mapping[str, Any]
-) -> Any:
-    """An xarray Dataset of columns over the first, their units as attributes."""
-    xarray = optional("xarray", "tables", who)
-    (index, at), *others = columns.items()
-    return xarray.Dataset(
-        {name: (index, values, {"units": units[name]}) for name, values in others},
-        coords={index: (index, at, {"units": units[index]})},
-        attrs=attrs,
-    )
 
 
 def write_csv(columns: Columns, units: Mapping[str, str], file: str | os.PathLike[str]) -> Path:
@@ -178,127 +156,6 @@ def cell(value: Any) -> str:
     return f'"{doubled}"'
 
 
-# Name, unit, description.
-_HISTORIES = (
-    ("ground_acceleration", "m/s^2", "ground acceleration"),
-    ("displacement", "m", "displacement relative to the ground"),
-    ("velocity", "m/s", "velocity relative to the ground"),
-    ("acceleration", "m/s^2", "absolute acceleration of the mass"),
-    ("friction", "m/s^2", "friction force per unit mass"),
-    ("spring", "m/s^2", "spring force per unit mass"),
-    ("damper", "m/s^2", "damper force per unit mass"),
-    ("force", "m/s^2", "sum of friction, spring and damper force per unit mass"),
-    ("stuck", "", "whether the slider sticks"),
-)
-# Histories beside these where the normal force is not the weight: under vertical motion, the last
-# also on a slope.
-_LIFTING = (
-    ("vertical_ground_acceleration", "m/s^2", "vertical ground acceleration, positive upward"),
-    ("gap", "m", "gap between slider and ground"),
-    ("normal_force", "m/s^2", "normal force per unit mass"),
-)
-# Histories that have two components in the plane.
-_VECTORS = (
-    *("ground_acceleration", "displacement", "velocity", "acceleration"),
-    *("friction", "spring", "damper", "force"),
-)
-_COMPONENTS = ("axis", "transverse")
-
-# Beside these where friction depends on it.
-_HEATED = (("temperature", "degC", "temperature of the sliding surface"),)
-
-
-def _histories(response: Response | PlanarResponse) -> tuple[tuple[str, str, str], ...]:
-    """Name, unit and description of the histories of a response."""
-    vertical = "vertical" in response.components
-    first = 0 if vertical else 2 if response.slider.slope_degrees > 0 else 3
-    heated = () if response.temperature is None else _HEATED
-    if isinstance(response, PlanarResponse):
-        vectors = [
-            (f"{name}_{component}", unit, f"{what}, {component} component")
-            for name, unit, what in _HISTORIES
-            if name in _VECTORS
-            for component in _COMPONENTS
-        ]
-        return (*vectors, *_LIFTING[first:], *heated, _HISTORIES[-1])
-    return (*_HISTORIES[:-1], *_LIFTING[first:], *heated, _HISTORIES[-1])
-
-
-def _columns(
-    response: Response | PlanarResponse,
-) -> tuple[dict[str, NDArray[Any]], dict[str, str]]:
-    """The time and the histories of a response, and their units."""
-    histories = _histories(response)
-    columns = {name: history(response, name) for name, _, _ in histories}
-    return {"time": response.time, **columns}, {"time": "s"} | {n: u for n, u, _ in histories}
-
-
-def to_dataframe(response: Response | PlanarResponse) -> Any:
-    """The histories of a response as a pandas DataFrame; see `Response.to_dataframe`."""
-    return frame_of(*_columns(response), "Response.to_dataframe", index="time")
-
-
-def to_xarray(response: Response | PlanarResponse) -> Any:
-    """The histories of a response as an xarray Dataset; see `Response.to_xarray`."""
-    xarray = optional("xarray", "tables", "Response.to_xarray")
-    variables = {
-        name: (
-            "time",
-            history(response, name),
-            {"long_name": what} | ({"units": unit} if unit else {}),
-        )
-        for name, unit, what in _histories(response)
-    }
-    return xarray.Dataset(
-        variables,
-        coords={"time": ("time", response.time, {"long_name": "time", "units": "s"})},
-        attrs={
-            "slider": repr(response.slider),
-            "motion": response.motion.name,
-            "peak": response.peak,
-            "peak_units": "m",
-            "residual": response.residual,
-            "residual_units": "m",
-        },
-    )
-
-
-def to_csv(response: Response | PlanarResponse, path: str | os.PathLike[str]) -> Path:
-    """Write the histories of a response to a file; see `Response.to_csv`."""
-    return write_csv(*_columns(response), path)
-
-
-def to_json(response: Response | PlanarResponse) -> str:
-    """The results and histories of a response as JSON; see `Response.to_json`."""
-    histories = _histories(response)
-    document = {
-        "stickslip": build_info()["version"],
-        "slider": repr(response.slider),
-        "motion": response.motion.name,
-        "components": response.components,
-        "contact": response.contact,
-        **_results(response),
-        "sliding_distance": response.sliding_distance,
-        "at_rest": response.at_rest,
-        "units": {"time": "s"} | {name: unit for name, unit, _ in histories if unit},
-        "time": response.time,
-        **{name: history(response, name) for name, _, _ in histories},
-        "events": response.events,
-    }
-    return json_text(document)
-
-
-def _results(response: Response | PlanarResponse) -> dict[str, Any]:
-    """The peak and the residual of a response, by name; in the plane also the place of the peak."""
-    peak = {"peak": response.peak}
-    if isinstance(response, PlanarResponse):
-        peak |= {
-            name: getattr(response, name)
-            for name in ("peak_time", "peak_displacement", "peak_azimuth")
-        }
-    return {**peak, "residual": response.residual}
-
-
 def json_text(document: Any) -> str:
     """A document as JSON: exact doubles, arrays as lists, null for NaN and infinity.
 
@@ -338,79 +195,6 @@ def _texts_of(column: NDArray[Any]) -> list[str]:
     for i in np.flatnonzero(~np.isfinite(column)):
         texts[i] = "null"
     return texts
-
-
-def has_floors(response: StructureResponse) -> bool:
-    """Whether `StructureResponse.floors` exists: the column of a slope has its top."""
-    structure = getattr(response.system, "structure", None)
-    return structure is None or structure.floors > 0
-
-
-def has_drifts(response: StructureResponse) -> bool:
-    """Whether the floors have drifts: each must be above another."""
-    structure = getattr(response.system, "structure", None)
-    return has_floors(response) and (structure is None or bool((structure.influence == 1).all()))
-
-
-def response_html(response: Response | PlanarResponse) -> str:
-    """A table of the main results of a response."""
-    energy = response.energy
-    rows = [
-        ("slider", repr(response.slider)),
-        ("ground motion", printable(response.motion.name) or repr(response.motion)),
-        ("peak displacement", _peak_text(response)),
-        (
-            "residual displacement" if response.at_rest else "displacement at the end, sliding",
-            _meters(response.residual),
-        ),
-        ("sliding distance", f"{response.sliding_distance:.4g} m"),
-        ("slips", f"{response.slips:,}"),
-        ("time sliding", f"{response.time_sliding:.4g} s"),
-        ("dissipated by friction", f"{energy.dissipated:.4g} m²/s²"),
-    ]
-    radius = response.slider.radius
-    if radius is not None:
-        rows.insert(1, ("radius, period", f"{radius:.4g} m, {response.slider.period:.4g} s"))
-    if response.slider.damping > 0:
-        rows.append(("dissipated by the damper", f"{energy.damped:.4g} m²/s²"))
-    if response.slider.stops is not None:
-        rows.append(("impacts on stops", f"{len(response.impacts):,}"))
-        rows.append(("lost in impacts", f"{energy.impact:.4g} m²/s²"))
-    if "vertical" in response.components:
-        flights = (response.events["kind"] == "liftoff").sum()
-        rows.append(("contact with the ground", f"{response.contact}, {flights:,} flights"))
-    if isinstance(response, Response):
-        rows += loop_rows(response)
-    if response.remark:
-        rows.append(("remark", response.remark))
-    return html_table(
-        "Response in the plane" if isinstance(response, PlanarResponse) else "Response", [], rows
-    )
-
-
-def loop_rows(response: Response | StructureResponse) -> list[tuple[str, str]]:
-    """Effective period and damping as rows of a table; none without a loop."""
-    try:
-        return [
-            ("effective period", f"{response.effective_period:.4g} s"),
-            ("effective damping", f"{100 * response.effective_damping:.3g} %"),
-        ]
-    except ValueError:
-        return []
-
-
-def _meters(displacement: float | NDArray[np.float64]) -> str:
-    """A displacement, or both components of one."""
-    if isinstance(displacement, float):
-        return f"{displacement:.4g} m"
-    return f"({displacement[0]:.4g}, {displacement[1]:.4g}) m"
-
-
-def _peak_text(response: Response | PlanarResponse) -> str:
-    text = _meters(response.peak)
-    if isinstance(response, PlanarResponse) and response.peak_azimuth is not None:
-        text += f", toward azimuth {response.peak_azimuth:.0f}\N{DEGREE SIGN}"
-    return text
 
 
 def impact_probabilities(ensemble: Ensemble) -> dict[str, Interval]:
@@ -481,20 +265,6 @@ def html_table(title: str, heading: Sequence[str], rows: Iterable[Sequence[str]]
     head = f"<thead>{row(heading, 'th')}</thead>" if heading else ""
     body = "".join(row(cells, "td") for cells in rows)
     return f"<table><caption>{html.escape(title)}</caption>{head}<tbody>{body}</tbody></table>"
-
-
-def history(response: Any, name: str) -> NDArray[Any]:
-    """A writable copy of a history."""
-    if "ground_acceleration" in name:
-        n = np.zeros(response.time.size)
-        motion = response.motion
-        which = next((c for c in ("vertical", "transverse") if c in name), "acceleration")
-        n[: len(motion)] = getattr(motion, which)
-        return n
-    vector, _, component = name.rpartition("_")
-    if vector in _VECTORS:
-        return np.array(getattr(response, vector)[:, _COMPONENTS.index(component)])
-    return np.array(getattr(response, name))
 
 
 def _of_interval(interval: Interval, unit: str = " m") -> str:

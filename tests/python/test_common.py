@@ -85,10 +85,10 @@ def is_same(twin, thing, expected):
 
 
 # Its parts are of other packages, or belong to the command line, the referee or a private module.
-INNER = ("cli", "referee", "demo", "__main__", "_hdf5", "_tables", "runs.parts", "runs.checkpoint")
-INNER += ("ensemble.parts", "ensemble.checkpoint", "sweeps.checkpoint", "plotting")
+INNER = ("cli", "referee", "demo", "__main__", "_hdf5", "_tables", "_responses", "plotting")
+INNER += ("runs.parts", "runs.checkpoint", "ensemble.parts", "ensemble.checkpoint")
 INNER += ("motions.records", "motions.stations", "motions.archives", "motions.metadata")
-INNER += ("risk.exceedance", "risk.observations", "risk.cloud", "risk.levels")
+INNER += ("sweeps.checkpoint", "risk.exceedance", "risk.observations", "risk.cloud", "risk.levels")
 
 
 def test_every_public_class_is_in_the_list():
@@ -313,6 +313,31 @@ def test_tables_have_the_same_columns_units_and_values(kind, tmp_path):
                 assert data[name].attrs.get("units", "") == units.get(name, ""), name
                 if data[name].dims == (frame.columns[0],) and data[name].dtype.kind in "fib":
                     assert np.array_equal(data[name], frame[name]), name
+
+
+@having("to_xarray")
+def test_a_dataset_says_what_each_variable_is(kind):
+    pytest.importorskip("xarray")
+    for thing in EXAMPLES[kind]:
+        for name, variable in thing.to_xarray().data_vars.items():
+            assert variable.attrs["long_name"], name
+
+
+CONVERSIONS = [
+    (kind, library, method)
+    for library, method in (("pandas", "to_dataframe"), ("xarray", "to_xarray"))
+    for kind in EXAMPLES
+    if hasattr(kind, method)
+]
+
+
+@pytest.mark.parametrize("kind, library, method", CONVERSIONS)
+def test_without_the_library_the_message_says_what_to_install(kind, library, method, monkeypatch):
+    monkeypatch.setitem(sys.modules, library, None)
+    message = rf"^{kind.__name__}\.{method}: needs {library},.*pip install stickslip\[tables\]"
+    for thing in EXAMPLES[kind]:
+        with pytest.raises(ImportError, match=message):
+            getattr(thing, method)()
 
 
 PICTURES = [(kind, name) for kind in EXAMPLES for name in dir(kind) if name.startswith("plot")]

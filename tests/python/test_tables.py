@@ -4,7 +4,6 @@ import csv
 import io
 import json
 import os
-import sys
 import xml.etree.ElementTree
 
 import numpy as np
@@ -160,15 +159,6 @@ def test_a_number_is_no_path_though_it_is_that_of_an_open_file(response, tmp_pat
         stream.seek(0)
         assert stream.read() == b"mine"
     assert table.to_csv(os.fsencode(tmp_path / "t.csv")) == tmp_path / "t.csv"
-
-
-@pytest.mark.parametrize("library, method", [("pandas", "dataframe"), ("xarray", "xarray")])
-def test_without_the_library_the_message_says_what_to_install(
-    response, monkeypatch, library, method
-):
-    monkeypatch.setitem(sys.modules, library, None)
-    with pytest.raises(ImportError, match=rf"needs {library}.*pip install stickslip\[tables\]"):
-        getattr(response, f"to_{method}")()
 
 
 # ---- notebooks

@@ -390,29 +390,6 @@ Returns the figure, see `stickslip.plotting.plot_cart_response`.)")
 Needs matplotlib. Takes `time`, the begin and end of the part to show [s], `speed`, seconds of the motion in a second of
 the animation, `fps`, frames in a second, `title`, and `size`, width and height [inches]. Returns an animation: a notebook
 shows it, its `write` saves it as .gif, .mp4 or .html; see `stickslip.plotting.animate`.)")
-      .def("to_dataframe", in_python("stickslip.carts.tables", "to_dataframe"),
-           R"(Convert the histories to a pandas DataFrame over `time` [s].
-
-Columns `ground_acceleration` and `transverse_ground_acceleration` [m/s^2], `vertical_ground_acceleration` if it acted,
-`displacement_axis` and `displacement_transverse` [m], `velocity_axis` and `velocity_transverse` [m/s], `yaw` [rad], `yaw_rate`
-[rad/s], and `heading_0` [rad] and so on, of each caster; units are in `attrs["units"]`. ImportError without pandas.)")
-      .def("to_xarray", in_python("stickslip.carts.tables", "to_xarray"),
-           R"(Convert the histories to an xarray Dataset over the coordinate `time`.
-
-The variables are the columns of `to_dataframe`, each with the attribute `units`. ImportError without xarray.)")
-      .def("to_csv", csv_in("stickslip.carts.tables", "to_csv"), py::arg("path"),
-           csv_doc("Write the histories to a CSV file, whole or not at all.",
-                   "A line of names with units, then one line per sample; every number reads back as the same double.")
-               .c_str())
-      .def("to_json", in_python("stickslip.carts.tables", "to_json"),
-           R"(The results and histories as one JSON document, for instance for a web page.
-
-Returns
--------
-str
-    An object with `cart`, `motion`, the results under the names of the attributes, `units` by name, the columns of
-    `to_dataframe` as lists, and `events`. Numbers read back to the same double; NaN and infinity are null.)")
-      .def("_repr_html_", in_python("stickslip.carts.tables", "response_html"))
       .def("__repr__", [](const Self& self) {
         const CartResponse& r = self.response;
         const std::string remark = remark_of(self);
@@ -421,6 +398,17 @@ str
                digits(r.residual.transverse) + ") m, " + std::to_string(r.events.size()) + " events" +
                (r.truncated ? ", samples end before rest" : "") + (remark.empty() ? "" : "; " + remark) + ">";
       });
+  define_tables<Self>(
+      m, "CartResponse",
+      {.system = "cart",
+       .columns = R"(The columns are `ground_acceleration_axis` and `ground_acceleration_transverse` [m/s^2],
+    `vertical_ground_acceleration` [m/s^2] if it acted, `displacement_axis` and `displacement_transverse` [m],
+    `velocity_axis` and `velocity_transverse` [m/s], `yaw` [rad], `yaw_rate` [rad/s], and for each caster that swivels
+    `heading_0` [rad] and so on, by the number of the support.)",
+       .attributes = "`peak` and `peak_outline`",
+       .results = R"(`peak` [m], `peak_time` [s], `peak_yaw` [rad], `peak_outline` [m], `peak_outline_time` [s],
+    `peak_corner`, `reach_outline` [m], `residual` [m], `residual_yaw` [rad], `time_moving` [s], `rests`, `at_rest`,
+    `margin` and `remark`)"});
 
   m.def(
       "integrate", &integrate_cart, py::arg("slider"), py::arg("motion"), py::kw_only(), py::arg("yaw") = 0.0,

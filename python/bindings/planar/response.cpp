@@ -330,30 +330,6 @@ slips.)")
 The axis of the ground motion points upward, and the transverse direction to the right. Needs matplotlib
 (`pip install stickslip[plot]`). Takes `figure`, a matplotlib Figure or SubFigure to draw in, `title`, and `time`, the
 begin and end of the part of the lower panels to draw [s]. Returns the figure, see `stickslip.plotting.plot_planar_response`.)")
-      .def("to_dataframe", in_python("stickslip._tables", "to_dataframe"),
-           R"(Convert the histories to a pandas DataFrame.
-
-As `Response.to_dataframe`, with two columns for each vector, such as `displacement_axis` and
-`displacement_transverse`, and with `temperature` if the law depends on it. ImportError without pandas.)")
-      .def("to_xarray", in_python("stickslip._tables", "to_xarray"),
-           R"(Convert the histories to an xarray Dataset over the coordinate `time`.
-
-The variables are the columns of `to_dataframe`, each with the attributes `units` and `long_name`. ImportError without
-xarray.)")
-      .def("to_csv", csv_in("stickslip._tables", "to_csv"), py::arg("path"),
-           csv_doc("Write the histories to a CSV file, whole or not at all.",
-                   "A line of names with units, then one line per sample; every number reads back as the same double.")
-               .c_str())
-      .def("to_json", in_python("stickslip._tables", "to_json"),
-           R"(The results and histories as one JSON document, for instance for a web page.
-
-Returns
--------
-str
-    An object as that of `Response.to_json`, with the columns of `to_dataframe`; `residual` and the displacement and
-    velocity of events are lists of two numbers, and `peak_time` [s], `peak_displacement` [m] and `peak_azimuth`
-    [degrees] stand beside `peak`.)")
-      .def("_repr_html_", in_python("stickslip._tables", "response_html"))
       .def("__repr__", [](const Self& r) {
         const std::string remark = remark_of(r);
         return "<PlanarResponse: peak " + digits(r.response.peak) + " m, residual (" +
@@ -361,6 +337,14 @@ str
                std::to_string(r.response.events.size()) + " events" +
                (r.response.truncated ? ", samples end before rest" : "") + (remark.empty() ? "" : "; " + remark) + ">";
       });
+  define_tables<Self>(
+      m, "PlanarResponse",
+      {.system = "slider",
+       .columns = R"(The columns are those of `Response.to_dataframe`, two for each vector, such as
+    `displacement_axis` and `displacement_transverse` [m].)",
+       .attributes = "`peak` and `residual`",
+       .results = R"(`contact`, `peak` [m], `peak_time` [s], `peak_displacement` [m], `peak_azimuth` [degrees],
+    `residual` [m], `sliding_distance` [m] and `at_rest`, vectors as lists of two numbers)"});
 }
 
 }  // namespace stickslip::python

@@ -450,28 +450,6 @@ Needs matplotlib. Takes `figure`, a matplotlib Figure or SubFigure to draw in, a
 Needs matplotlib. Takes `time`, the begin and end of the part to show [s], `speed`, seconds of the motion in a second of
 the animation, `fps`, frames in a second, `title`, and `size`, width and height [inches]. Returns an animation: a notebook shows it, its `write` saves it as
 .gif, .mp4 or .html; see `stickslip.plotting.animate`.)")
-      .def("to_dataframe", in_python("stickslip.rocking.tables", "to_dataframe"),
-           R"(Convert the histories to a pandas DataFrame over `time` [s].
-
-Columns `ground_acceleration` [m/s^2], `rotation` [rad] and `rate` [rad/s], `vertical_ground_acceleration` [m/s^2] if it
-acted, and of a `RockingBlock` `displacement` and `top_displacement` [m]; units are in `attrs["units"]`. ImportError without pandas.)")
-      .def("to_xarray", in_python("stickslip.rocking.tables", "to_xarray"),
-           R"(Convert the histories to an xarray Dataset over the coordinate `time`.
-
-The variables are the columns of `to_dataframe`, each with the attribute `units`. ImportError without xarray.)")
-      .def("to_csv", csv_in("stickslip.rocking.tables", "to_csv"), py::arg("path"),
-           csv_doc("Write the histories to a CSV file, whole or not at all.",
-                   "A line of names with units, then one line per sample; every number reads back as the same double.")
-               .c_str())
-      .def("to_json", in_python("stickslip.rocking.tables", "to_json"),
-           R"(The results and histories as one JSON document, for instance for a web page.
-
-Returns
--------
-str
-    An object with `block`, `motion`, the results under the names of the attributes, `units` by name, the columns of
-    `to_dataframe` as lists, and `events`. Numbers read back to the same double; NaN and infinity are null.)")
-      .def("_repr_html_", in_python("stickslip.rocking.tables", "response_html"))
       .def("__repr__", [](const Self& r) {
         const std::string remark = remark_of(r);
         const auto side = side_name(r.response.overturned);
@@ -482,6 +460,15 @@ str
                (is_rigid(r) ? ", base displaced by " + digits(r.response.residual) + " m" : "") +
                (r.response.truncated ? ", samples end before rest" : "") + (remark.empty() ? "" : "; " + remark) + ">";
       });
+  define_tables<Self>(
+      m, "RockingResponse",
+      {.system = "block",
+       .columns = R"(The columns are `ground_acceleration` [m/s^2], `vertical_ground_acceleration` [m/s^2] if it
+    acted, `rotation` [rad], `rate` [rad/s], and of a `RockingBlock` `displacement` and `top_displacement` [m].)",
+       .attributes = "`peak_rotation` and\n    `overturned`, empty if the block stands",
+       .results = R"(`peak_rotation` [rad], `peak_time` [s], `peak_rotation_ratio`, `overturned`,
+    `overturned_at` [s], `impacts`, `uplifts`, `time_rocking` [s], `at_rest`, `margin`, `condition` and `remark`, and
+    of a `RockingBlock` `residual` [m], `sliding_distance` [m], `time_sliding` [s], `liftoffs`, `impacts_with_slip`)"});
 
   m.def(
       "integrate", &integrate_block<SlenderBlock>, py::arg("slider"), py::arg("motion"), py::kw_only(),

@@ -558,39 +558,21 @@ and `time`, the begin and end of the part to draw [s], such as (0, 25). Returns 
            py::arg("fps") = 15.0, py::arg("title") = py::none(), py::arg("size") = py::none(), animation_doc)
       .def("plot_hysteresis", hysteresis(), py::kw_only(), py::arg("figure") = py::none(),
            py::arg("title") = py::none(), py::arg("ax") = py::none(), py::arg("time") = py::none(), hysteresis_doc)
-      .def("to_dataframe", in_python("stickslip._tables", "to_dataframe"),
-           R"(Convert the histories to a pandas DataFrame.
-
-The index is `time` [s]; the columns are `ground_acceleration`, `displacement`, `velocity`, `acceleration`, `friction`,
-`spring`, `damper` and `force`, and `stuck` (bool). Under vertical motion also `vertical_ground_acceleration`, `gap` and
-`normal_force`; on a slope also `normal_force`. `frame.attrs["units"]` has the units by name. The ground acceleration is
-0 after the ground motion. ImportError without pandas.)")
-      .def("to_xarray", in_python("stickslip._tables", "to_xarray"),
-           R"(Convert the histories to an xarray Dataset over the coordinate `time`.
-
-The variables are those of `to_dataframe`, each with the attributes `units` and `long_name`. Attributes of the
-Dataset: slider, motion (its name), peak [m], residual [m]. ImportError without xarray.)")
-      .def("to_csv", csv_in("stickslip._tables", "to_csv"), py::arg("path"),
-           csv_doc("Write the histories to a CSV file, whole or not at all.",
-                   "A line of names with units, then one line per sample; every number reads back as the same double.")
-               .c_str())
-      .def("to_json", in_python("stickslip._tables", "to_json"),
-           R"(The results and histories as one JSON document, for instance for a web page.
-
-Returns
--------
-str
-    An object: `stickslip` (the version), `slider`, `motion` (its name), `components`, `contact`, `peak` [m],
-    `residual` [m], `sliding_distance` [m], `at_rest`; `units` of all that follow; `time` and the columns of `to_dataframe`, each a list
-    with one value per sample; `events`, each with `time` [s], `displacement` [m], `velocity` [m/s] and `kind`. Every
-    number reads back as the same double; NaN and infinity, which JSON lacks, are null.)")
-      .def("_repr_html_", in_python("stickslip._tables", "response_html"))
       .def("__repr__", [](const ResponseWithInputs& r) {
         const std::string remark = remark_of(r);
         return "<Response: peak " + digits(r.response.peak) + " m, residual " + digits(r.response.residual) + " m, " +
                std::to_string(r.response.events.size()) + " events" +
                (r.response.truncated ? ", samples end before rest" : "") + (remark.empty() ? "" : "; " + remark) + ">";
       });
+  define_tables<ResponseWithInputs>(
+      m, "Response",
+      {.system = "slider",
+       .columns = R"(The columns are `ground_acceleration` [m/s^2], `displacement` [m], `velocity` [m/s];
+    `acceleration`, `friction`, `spring`, `damper` and `force` [m/s^2]; and `stuck` (bool). Under vertical motion also
+    `vertical_ground_acceleration` [m/s^2], `gap` [m] and `normal_force` [m/s^2]; on a slope also `normal_force`; and
+    `temperature` [degC] if the law depends on it.)",
+       .attributes = "`peak` and `residual`",
+       .results = "`contact`, `peak` [m], `residual` [m], `sliding_distance` [m] and `at_rest`"});
 }
 
 }  // namespace stickslip::python

@@ -443,36 +443,26 @@ Needs matplotlib (`pip install stickslip[plot]`). Takes `figure`, a matplotlib F
           R"(Points that draw the loops of `force` with straight lines between them, for `stickslip.plotting`.
 
 A structured array with the fields time [s], displacement [m] and force [m/s^2]; two points where the force jumps.)")
-      .def("to_dataframe", in_python("stickslip._structures", "to_dataframe"),
-           R"(Convert the histories to a pandas DataFrame with the index `time`.
-
-The columns are ground_acceleration, displacement, velocity, base_acceleration, demand and force, temperature if the law
-depends on it, and for each floor floor_1_displacement, floor_1_acceleration and so on. ImportError without pandas.)")
-      .def("to_xarray", in_python("stickslip._structures", "to_xarray"),
-           R"(Convert the histories to an xarray Dataset over the coordinates `time` and, with floors, `floor`.
-
-The variables of the interface are those of `to_dataframe`; floor_displacement, floor_acceleration and, with an influence
-of ones, floor_drift are two-dimensional. Each has the attribute `units`. Attributes of the Dataset: system, motion (its
-name), peak [m], residual [m]. ImportError without xarray.)")
-      .def("_repr_html_", in_python("stickslip._structures", "response_html"))
-      .def("to_csv", csv_in("stickslip._structures", "to_csv"), py::arg("path"),
-           csv_doc("Write the histories to a CSV file, whole or not at all.",
-                   "A line of names with units, then one line per sample; every number reads back as the same double.")
-               .c_str())
-      .def("to_json", in_python("stickslip._structures", "to_json"),
-           R"(The results and histories as one JSON document.
-
-Returns
--------
-str
-    An object with the columns of `to_dataframe`, their units, the events, the results by name, and the peaks of the
-    floors.)")
       .def("__repr__", [](const Self& r) {
         const std::string remark = remark_of(r);
         return "<StructureResponse: peak " + digits(r.response.peak) + " m, residual " + digits(r.response.residual) +
                " m, " + std::to_string(r.response.events.size()) + " events" + (remark.empty() ? "" : "; " + remark) +
                ">";
       });
+  define_tables<Self>(
+      m, "StructureResponse",
+      {.system = "system",
+       .columns = R"(The columns are `ground_acceleration` [m/s^2], `displacement` [m], `velocity` [m/s],
+    `base_acceleration`, `demand` and `force` [m/s^2], `temperature` [degC] if the law depends on it, and for each floor
+    `floor_1_displacement` [m], `floor_1_acceleration` [m/s^2] and so on.)",
+       .attributes = "`peak` and `residual`",
+       .results = R"(`peak` [m], `residual` [m], `sliding_distance` [m], `at_rest`, `settled`,
+    `margin` [m/s^2], `peak_base_acceleration` [m/s^2] and `peak_base_shear` [N, or m/s^2 with `from_modes`])",
+       .floors = R"(In place of those of floors `floor_displacement`, `floor_acceleration` and, with an influence of
+    ones, `floor_drift` [m], over `time` and the coordinate `floor`, from 1.
+    )",
+       .peaks = R"(; with floors, `peak_floor_acceleration`
+    [m/s^2] and, with an influence of ones, `peak_drift` [m])"});
 
   const auto bind_integrate_of = [&](auto* type, const char* doc) {
     using System = std::remove_pointer_t<decltype(type)>;

@@ -201,7 +201,7 @@ def _floor(response: StructureResponse, floor: int, *, vertical: bool = False) -
     """
     import numpy as np
 
-    from .._tables import has_floors
+    from .._structure_responses import has_floors
 
     system, motion = response.system, response.motion
     if response.truncated:

@@ -28,7 +28,7 @@ from .._core import (
     StructureResponse,
 )
 from .._files import replacing
-from .._tables import has_floors
+from .._structure_responses import has_floors
 from ..runs.progress import Progress, shown
 from .carts import film_of_cart
 from .figures import new_figure

@@ -17,7 +17,7 @@ from .._core import (
     FlexibleSlope,
     StructureResponse,
 )
-from .._tables import has_drifts, has_floors
+from .._structure_responses import has_drifts, has_floors
 from .figures import Place, given_or_new
 from .panels import draw_stops, mark_end, mark_peak, near_stops, shade_sticks
 from .styles import BLUE, COLORS, GRAY, VERMILION, put_figure_title, put_title, style
