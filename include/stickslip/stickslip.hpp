@@ -3,6 +3,7 @@
 
 #include "stickslip/build_info.hpp"
 #include "stickslip/carts/cart.hpp"
+#include "stickslip/carts/forces.hpp"
 #include "stickslip/carts/integrate.hpp"
 #include "stickslip/carts/outcomes.hpp"
 #include "stickslip/carts/response.hpp"

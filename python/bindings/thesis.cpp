@@ -86,8 +86,8 @@ void bind_figure(py::module_& m) {
       .def_readonly("members", &ThesisStatement::members,
                     "Number of members of the ensembles behind `found`, int; 0 if it is not an estimate.")
       .def("__repr__", [](const ThesisStatement& s) {
-        return "<ThesisStatement " + s.where + ": " + s.claim + ": said " + detail::shortest(s.said) + ", found " +
-               detail::shortest(s.found) + ">";
+        return "<ThesisStatement " + s.where + ": " + s.claim + ": said " + digits(s.said) + ", found " +
+               digits(s.found) + ">";
       });
 
   value_class<ThesisCheck>(m, "ThesisCheck", "A number or a text of a figure next to what is expected.")
@@ -101,8 +101,8 @@ void bind_figure(py::module_& m) {
       .def_readonly("loose", &ThesisCheck::loose,
                     "Whether half of a nonzero expected value would hold too, because there are few members.")
       .def("__repr__", [](const ThesisCheck& c) {
-        return "<ThesisCheck " + c.what + ": found " + detail::shortest(c.found) + ", expected " +
-               detail::shortest(c.expected) + " +- " + detail::shortest(c.allowed) + ">";
+        return "<ThesisCheck " + c.what + ": found " + digits(c.found) + ", expected " + digits(c.expected) + " +- " +
+               digits(c.allowed) + ">";
       });
 
   value_class<ThesisFigure>(m, "ThesisFigure", "A figure or table of the thesis, recomputed.")

@@ -56,7 +56,7 @@ def describe(response: Response | PlanarResponse) -> Described:
 
 
 def _histories(response: Response | PlanarResponse) -> tuple[History, ...]:
-    vectors = _VECTORS
+    vectors: tuple[History, ...] = _VECTORS
     if isinstance(response, PlanarResponse):
         vectors = tuple(
             History(f"{name}_{component}", unit, f"{description}, {component} component")

@@ -20,7 +20,6 @@
 
 namespace stickslip {
 namespace detail {
-namespace {
 
 CartSegment cart_segment(const GroundMotion& motion, std::size_t i) {
   const bool held = motion.interpolation() == Interpolation::constant;
@@ -42,6 +41,19 @@ void move(CartWorkspace& work, const CartSegment& ground, CartState& state, Cart
   CartSystem system(work, ground, state);
   stickslip::detail::advance(system, sink);
 }
+
+CartSegment calm_for(double duration) noexcept { return {duration, {}, {}, standard_gravity, standard_gravity}; }
+
+CartState start_of(const CartModel& model, const CartResponse& response) {
+  CartState start = model.start();
+  start.yaw = response.yaw.front();
+  start.velocity = response.velocity.front();
+  start.yaw_rate = response.yaw_rate.front();
+  if (norm(start.velocity) > 0 || !equal(start.yaw_rate, 0)) start.mode = CartMode::moving;
+  return start;
+}
+
+namespace {
 
 class CartRun {
  public:
@@ -150,9 +162,6 @@ class CartRun {
   }
 
  private:
-  static CartSegment calm_for(double duration) noexcept {
-    return {duration, {}, {}, standard_gravity, standard_gravity};
-  }
   void keep(const State& state, Response& response) const {
     if (samples_ == Samples::dropped) return;
     response.displacement.push_back(state.displacement);
@@ -240,13 +249,8 @@ std::vector<CartState> states_at(const Cart& cart, const GroundMotion& motion, c
   const detail::CartModel model(cart);
   detail::CartWorkspace work(model);
   detail::NoCartSink none;
-  CartState start = model.start();
-  start.yaw = response.yaw.front();
-  start.velocity = response.velocity.front();
-  start.yaw_rate = response.yaw_rate.front();
-  if (norm(start.velocity) > 0 || !detail::equal(start.yaw_rate, 0)) start.mode = CartMode::moving;
   const auto step = [&](CartState& state, double duration, std::size_t i, double from, double to) {
-    detail::CartSegment part{duration, {}, {}, standard_gravity, standard_gravity};
+    detail::CartSegment part = detail::calm_for(duration);
     if (i < motion.segments()) {
       const detail::CartSegment whole = detail::cart_segment(motion, i);
       const auto at = [](auto first, auto last, double share) { return first + share * (last - first); };
@@ -255,7 +259,8 @@ std::vector<CartState> states_at(const Cart& cart, const GroundMotion& motion, c
     }
     detail::move(work, part, state, none);
   };
-  return detail::states_by_steps(motion, times, start, response.events.back().time, response.state, step);
+  return detail::states_by_steps(motion, times, detail::start_of(model, response), response.events.back().time,
+                                 response.state, step);
 }
 
 }  // namespace stickslip

@@ -156,13 +156,12 @@ class CartRecorder final : public CartSink, public EventLog<CartEvent>, public P
     }
   }
 
-  void creep(double begin, double duration, double input, const std::vector<double>& work,
-             const CartState& end) override {
+  void creep(const CartCreep& creep, const CartState& end) override {
     count_work();
-    response_.time_moving += duration;
-    response_.energy.input += input;
-    for (std::size_t l = 0; l < model_.contacts(); ++l) spend(l, work[l]);
-    const double time = when(begin + duration), c = std::cos(end.yaw), s = std::sin(end.yaw);
+    response_.time_moving += creep.duration;
+    response_.energy.input += creep.input;
+    for (std::size_t l = 0; l < model_.contacts(); ++l) spend(l, creep.work[l]);
+    const double time = when(creep.begin + creep.duration), c = std::cos(end.yaw), s = std::sin(end.yaw);
     if (norm(end.displacement) > response_.peak) response_.peak = norm(end.displacement), response_.peak_time = time;
     response_.peak_yaw = std::max(response_.peak_yaw, std::abs(end.yaw - yaw_));
     for (std::size_t i = 0; i < starts_.size(); ++i) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -21,6 +22,15 @@
 
 namespace stickslip::detail {
 
+/// A short motion in which what begins to slide is slaved to its force.
+struct CartCreep {
+  double begin, duration;           ///< [s]
+  double input;                     ///< work of the ground [m^2/s^2]
+  const std::vector<double>& work;  ///< against the friction of each line and foot [m^2/s^2]
+  /// r'' at the Gauss points of three, of which the gain of velocity is the weighted sum [m/s^2].
+  const std::array<Vector2, 3>& accelerations;
+};
+
 /// Receives the motion of a cart while it is computed. Times are since the beginning of the segment [s].
 class CartSink {
  public:
@@ -29,11 +39,7 @@ class CartSink {
   virtual void event(EventKind kind, double time, const CartState& state) = 0;
   /// A line or a foot sticks, slips or reverses.
   virtual void happens(CartEventKind /*kind*/, double /*time*/, const CartState&, std::size_t /*line*/) {}
-  /// The cart moves for a short time in which what begins to slide is slaved to its force.
-  /// @param input  work of the ground [m^2/s^2]
-  /// @param work   against the friction of each line and foot
-  virtual void creep(double /*begin*/, double /*duration*/, double /*input*/, const std::vector<double>& /*work*/,
-                     const CartState& /*end*/) {}
+  virtual void creep(const CartCreep&, const CartState& /*end*/) {}
   /// How far a decision was from another one, over the accelerations that take part.
   virtual void decide(double /*margin*/) {}
 
@@ -528,6 +534,7 @@ class CartSystem {
     Vector3 rates[3]{}, speeds[3]{}, last{};  // last: the direction at the end
     double lag = 0;
     Vector2 ways[3]{};
+    std::array<Vector2, 3> accelerations{};
     double yaws[3]{}, input = 0;
     work_.work.resize(contacts);
     // The state after parts of the step.
@@ -593,6 +600,9 @@ class CartSystem {
       input = 0;
       for (std::size_t i = 0; i < 3; ++i) {
         place(a[i], rates[i]);
+        const double c = std::cos(stage.yaw), s = std::sin(stage.yaw);
+        const Vector2 felt{rates[i][0] - yaws[i] * speeds[i][1], rates[i][1] + yaws[i] * speeds[i][0]};
+        accelerations[i] = {c * felt.axis - s * felt.transverse, s * felt.axis + c * felt.transverse};
         const Vector3 load = load_at(stage, now_ + nodes[i] * h);
         const double heavy = weight_at(now_ + nodes[i] * h);
         input += h * weights[i] * dot(load, speeds[i]);
@@ -614,7 +624,7 @@ class CartSystem {
     state_.yaw = stage.yaw;
     state_.yaw_rate = stage.yaw_rate;
     solve(state_, now_);
-    sink.creep(begin, h, input, work_.work, state_);
+    sink.creep({begin, h, input, work_.work, accelerations}, state_);
     if (work_.problem.rests() && is_slow(model_.steady)) {
       rest();
       return;

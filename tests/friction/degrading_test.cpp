@@ -449,11 +449,11 @@ TEST_CASE("members on degrading friction go one by one, as by integrate", "[degr
 }
 
 TEST_CASE("degrading friction that cannot be is refused", "[degrading][errors]") {
-  CHECK_THROWS_WITH(Degrading({}, {}), "Degrading: distances must hold at least one, got 0");
+  CHECK_THROWS_WITH(Degrading({}, {}), "Degrading: distance must hold at least one, got 0");
   CHECK_THROWS_WITH(Degrading({0, 1}, {1}), "Degrading: levels must be as many as distances, 2, got 1");
   CHECK_THROWS_WITH(Degrading({0, 1}, {1, 1}, {1}), "Degrading: backward must be as many as distances, 2, got 1");
-  CHECK_THROWS_WITH(Degrading({-1, 1}, {1, 1}), "Degrading: distances[0] must be finite and at least 0, got -1 m");
-  CHECK_THROWS_WITH(Degrading({1, 1}, {1, 1}), "Degrading: distances[1] must be above the one before, 1 m, got 1 m");
+  CHECK_THROWS_WITH(Degrading({-1, 1}, {1, 1}), "Degrading: distance[0] must be finite and at least 0, got -1 m");
+  CHECK_THROWS_WITH(Degrading({1, 1}, {1, 1}), "Degrading: distance[1] must be above the one before, 1 m, got 1 m");
   CHECK_THROWS_WITH(Degrading({0, 1}, {1, -0.5}), "Degrading: levels[1] must be finite and at least 0, got -0.5 m/s^2");
   CHECK_THROWS_AS(Degrading({0, 1}, {1, 1}, {1, infinity}), std::invalid_argument);
   CHECK_THROWS_AS(Degrading({0, not_a_number}, {1, 1}), std::invalid_argument);

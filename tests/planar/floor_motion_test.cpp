@@ -8,6 +8,8 @@
 
 #include "stickslip/ground/processing.hpp"
 #include "stickslip/planar/any_planar_slider.hpp"
+#include "stickslip/sliding/floor_motion.hpp"
+#include "stickslip/sliding/integrate.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
 

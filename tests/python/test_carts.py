@@ -122,6 +122,21 @@ def test_advance_goes_where_integrate_goes():
         ss.advance(CART, ss.CartState(headings=[0.0]), 0.1, (0, 0))
 
 
+def test_a_cart_on_feet_is_felt_like_a_block():
+    feet = [ss.Foot(at=(x, y), mu=0.15) for x in (-0.3, 0.3) for y in (-0.2, 0.2)]
+    r = ss.integrate(ss.Cart(feet, radius_of_gyration=0.25), QUAKE, settle=True)
+    block = ss.integrate(ss.PlanarSlider(ss.Coulomb(mu=0.15)), QUAKE, settle=True)
+    assert np.allclose(r.acceleration[:-1], block.acceleration[:-1], rtol=0, atol=1e-5)
+    assert r.peak_force == pytest.approx(block.peak_force, rel=1e-5) == 0.15 * G
+    assert np.linalg.norm(r.at(r.peak_force_time).displacement) <= r.peak
+    periods = [0.1, 0.5, 2.0]
+    floors = [ss.response_spectrum(one, periods, direction=30) for one in (r, block)]
+    assert np.allclose(floors[0].values, floors[1].values, rtol=1e-4)
+    assert [one.name for one in floors] == ["cart, both", "sliding mass, both"]
+    spread = [ss.rotd(one, periods).rotd100 for one in (r, block)]
+    assert np.allclose(*spread, rtol=1e-4)
+
+
 def test_the_motion_at_any_times():
     rows = PLAIN.at(PLAIN.time)
     for name in ("displacement", "velocity", "yaw", "yaw_rate"):
@@ -210,7 +225,6 @@ def test_what_is_not_known_of_carts_is_refused():
     for call in (
         lambda: PLAIN.sensitivity("scale"),
         lambda: PLAIN.effective_period,
-        lambda: ss.response_spectrum(PLAIN, [1.0]),
         lambda: ss.ensemble_sensitivity(CART, QUAKE, "scale", members=2, seed=1),
     ):
         with pytest.raises((TypeError, AttributeError), match=r"Cart|no attribute"):

@@ -45,10 +45,10 @@ def test_levels_are_given_in_several_ways():
             "got mu_backward and backward",
         ),
         ({"distance": [0, 1], "mu": [0.1]}, "levels must be as many as distances, 2, got 1"),
-        ({"distance": [1, 0], "mu": [1, 1]}, r"distances\[1\] must be above the one before, 1 m"),
+        ({"distance": [1, 0], "mu": [1, 1]}, r"distance\[1\] must be above the one before, 1 m"),
         ({"distance": [0, 1], "mu": [1, -1]}, r"mu\[1\] must be finite and at least 0, got -1"),
-        ({"distance": [0, np.nan], "mu": [1, 1]}, r"distances\[1\] must be finite"),
-        ({"distance": [], "mu": []}, "distances must hold at least one"),
+        ({"distance": [0, np.nan], "mu": [1, 1]}, r"distance\[1\] must be finite"),
+        ({"distance": [], "mu": []}, "distance must hold at least one"),
     ],
 )
 def test_what_cannot_be_is_refused(arguments, message):

@@ -331,6 +331,12 @@ class CartCells(RockingCells):
         r = self.response
         assert np.allclose(r.at(r.time)["displacement"], r.displacement, rtol=0, atol=1e-9)
 
+    def forces(self):
+        r = self.response
+        sizes = np.linalg.norm(r.acceleration, axis=1)
+        assert r.peak_force >= sizes.max() * (1 - 1e-9)
+        assert r.time[0] <= r.peak_force_time <= r.time[-1]
+
     def tables(self):
         r = self.response
         assert json.loads(r.to_json())["peak_outline"] == r.peak_outline
@@ -367,7 +373,7 @@ NOT_OF_SYSTEMS = {
     "no": r"on one axis, got a PlanarSlider|sliders must be a Slider, a friction law|no attribute"
     r"|needs a slider on a spring"
     r"|covers a SlenderBlock|sensitivities of structures are not"
-    r"|a Suite, got <(Rocking|Cart)Response"
+    r"|or a cart, got <RockingResponse"
 }
 
 SHAKING = ss.GaussianExcitation(ss.Spectrum.band_pass(s0=0.3, low=2, high=30), dt=0.05, samples=201)

@@ -180,8 +180,8 @@ SAID = {
     ),
     "spectrum": (
         lambda: ss.response_spectrum(3, [1]),
-        "response_spectrum: motion must be a GroundMotion, a Response, a PlanarResponse or a Suite,"
-        " got 3",
+        "response_spectrum: motion must be a GroundMotion, a Suite, or the response of a slider,"
+        " a structure or a cart, got 3",
     ),
     "operator": (lambda: QUAKE + 1, "unsupported operand type(s) for +: 'stickslip.GroundMotion'"),
 }

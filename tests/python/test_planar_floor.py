@@ -65,5 +65,5 @@ def test_directions_that_do_not_exist_are_refused():
         ss.response_spectrum(along, 1.0, direction=90)
     with pytest.raises(ValueError, match="direction must be finite"):
         ss.response_spectrum(ground, 1.0, direction=np.nan)
-    with pytest.raises(TypeError, match="a GroundMotion or a PlanarResponse, got Response"):
+    with pytest.raises(TypeError, match="a PlanarResponse or a CartResponse, got Response"):
         ss.rotd(one)

@@ -52,26 +52,26 @@ class Degrading {
     double from_;
   };
 
-  /// @param distances  s_i of the knots [m]: at least one, finite, at least 0 and increasing
-  /// @param levels     a_i of the knots [m/s^2], one for each distance, finite and at least 0
+  /// @param distance  s_i of the knots [m]: at least one, finite, at least 0 and increasing
+  /// @param levels    a_i of the knots [m/s^2], one for each distance, finite and at least 0
   /// @throws std::invalid_argument naming the value
-  Degrading(std::vector<double> distances, std::vector<double> levels)
-      : Degrading(std::move(distances), levels, levels) {}
+  Degrading(std::vector<double> distance, std::vector<double> levels)
+      : Degrading(std::move(distance), levels, levels) {}
 
   /// @param levels    against forward sliding [m/s^2]
   /// @param backward  against backward sliding [m/s^2], with the same requirements
-  Degrading(std::vector<double> distances, std::vector<double> levels, std::vector<double> backward)
-      : distances_(std::move(distances)), forward_(std::move(levels)), backward_(std::move(backward)) {
-    detail::require(!distances_.empty(), "Degrading: distances must hold at least one", 0);
+  Degrading(std::vector<double> distance, std::vector<double> levels, std::vector<double> backward)
+      : distances_(std::move(distance)), forward_(std::move(levels)), backward_(std::move(backward)) {
+    detail::require(!distances_.empty(), "Degrading: distance must hold at least one", 0);
     check_count("levels", forward_);
     check_count("backward", backward_);
     for (std::size_t i = 0; i < distances_.size(); ++i) {
       detail::require(std::isfinite(distances_[i]) && distances_[i] >= 0,
-                      at_index("distances", i) + " must be finite and at least 0", distances_[i], "m");
+                      at_index("distance", i) + " must be finite and at least 0", distances_[i], "m");
       if (i > 0)
         detail::require(
             distances_[i] > distances_[i - 1],
-            at_index("distances", i) + " must be above the one before, " + detail::shortest(distances_[i - 1]) + " m",
+            at_index("distance", i) + " must be above the one before, " + detail::shortest(distances_[i - 1]) + " m",
             distances_[i], "m");
       check_level("levels", i, forward_[i]);
       check_level("backward", i, backward_[i]);

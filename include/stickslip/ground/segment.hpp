@@ -5,6 +5,7 @@
 
 #include "stickslip/base/requirements.hpp"
 #include "stickslip/base/units.hpp"
+#include "stickslip/base/vector2.hpp"
 
 namespace stickslip {
 
@@ -14,6 +15,13 @@ struct Segment {
   double duration;  ///< [s], finite, at least 0
   double start;     ///< ground acceleration at its beginning [m/s^2], finite
   double end;       ///< ground acceleration at its end [m/s^2], finite; equal to `start` if the value is held
+};
+
+/// Horizontal ground acceleration in both directions, linear from `start` to `end` within `duration`.
+struct PlanarSegment {
+  double duration;  ///< [s], finite, at least 0
+  Vector2 start;    ///< at its beginning [m/s^2], finite
+  Vector2 end;      ///< at its end [m/s^2], finite; equal to `start` if the value is held
 };
 
 /// The load p on a slider and the normal force N under it, both per unit mass and linear within `duration`:

@@ -2,56 +2,26 @@
 #pragma once
 
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <optional>
 #include <utility>
-#include <vector>
 
-#include "stickslip/base/direction.hpp"
 #include "stickslip/base/equal.hpp"
-#include "stickslip/base/error.hpp"
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/base/units.hpp"
 #include "stickslip/base/vector2.hpp"
+#include "stickslip/ground/floor_motion.hpp"
 #include "stickslip/ground/ground_motion.hpp"
-#include "stickslip/ground/response_spectrum.hpp"
 #include "stickslip/planar/integrate.hpp"
 #include "stickslip/planar/response.hpp"
 #include "stickslip/planar/segment.hpp"
 #include "stickslip/planar/slider.hpp"
 #include "stickslip/planar/state.hpp"
 #include "stickslip/planar/trajectory.hpp"
+#include "stickslip/run/detail/chords.hpp"
 #include "stickslip/run/detail/reading.hpp"
-#include "stickslip/sliding/floor_motion.hpp"
 
 namespace stickslip {
-
-/// A jump of the velocity of a floor in the plane, between two segments of its acceleration.
-struct PlanarImpulse {
-  std::size_t before;  ///< index of the segment that follows
-  Vector2 velocity;    ///< after minus before the jump [m/s]
-};
-
-/// The absolute acceleration of the mass in the plane: segments, and impulses at impacts.
-struct PlanarFloorMotion {
-  std::vector<PlanarSegment> segments;  ///< consecutive, accelerations [m/s^2]
-  std::vector<PlanarImpulse> impulses;  ///< jumps of the velocity between them, in order
-
-  /// The component in a direction.
-  /// @param degrees  clockwise from the axis, finite; 90 is the transverse direction
-  FloorMotion along(double degrees) const {
-    const auto [c, s] = detail::cos_sin(degrees);
-    const Vector2 direction{c, s};
-    FloorMotion floor;
-    for (const PlanarSegment& part : segments)
-      floor.segments.push_back({part.duration, dot(part.start, direction), dot(part.end, direction)});
-    for (const PlanarImpulse& impulse : impulses)
-      floor.impulses.push_back({impulse.before, dot(impulse.velocity, direction)});
-    return floor;
-  }
-};
-
 namespace detail {
 
 /// Reads the absolute acceleration of the mass as chords, and the jumps of its velocity as impulses.
@@ -80,21 +50,17 @@ class PlanarFloorReader final : public PlanarTrajectoryReader {
     jump_to(arc.at(0).velocity);
     const auto at = [&](double s) {
       const double time = arc.at(s).time;
-      return Point{s, time, absolute(arc.begin + time, arc.acceleration(s))};
+      return CurvePoint{s, time, absolute(arc.begin + time, arc.acceleration(s))};
     };
-    const Point end = at(arc.last);
-    add(at, at(0), end, 0x1p-20 * arc.last);
+    // At a stop the direction of friction turns within a time that vanishes.
+    const CurvePoint end = at(arc.last);
+    add_chords(at, at(0), end, tolerance_, 0x1p-20 * arc.last, floor);
     now_ = arc.begin + end.time;
   }
 
   PlanarFloorMotion floor;
 
  private:
-  struct Point {
-    double s, time;
-    Vector2 acceleration;
-  };
-
   Vector2 absolute(double time, Vector2 acceleration) const noexcept {
     return acceleration - segment_->load(time) + Vector2{downhill_, 0};
   }
@@ -111,27 +77,6 @@ class PlanarFloorReader final : public PlanarTrajectoryReader {
   void jump_to(Vector2 velocity) {
     if (before_ && *before_ != velocity) floor.impulses.push_back({floor.segments.size(), velocity - *before_});
     before_.reset();
-  }
-
-  // Chords between two points of a flow, halved until the curve is close to them. At a stop the direction of friction
-  // turns within a time that vanishes; a part of the flow shorter than `shortest` is not divided.
-  template <class At>
-  void add(const At& at, const Point& first, const Point& last, double shortest) {
-    const double duration = last.time - first.time;
-    if (last.s - first.s > shortest && duration > 0) {
-      constexpr double margin = 4.0 / 3;  // the curvature between the points
-      const auto between = [&](double part) { return at(std::lerp(first.s, last.s, part)); };
-      const auto deviation = [&](const Point& p) {
-        const double part = (p.time - first.time) / duration;
-        return norm(p.acceleration - first.acceleration - part * (last.acceleration - first.acceleration));
-      };
-      const Point middle = between(0.5);
-      if (margin * std::max({deviation(middle), deviation(between(0.25)), deviation(between(0.75))}) > tolerance_) {
-        add(at, first, middle, shortest);
-        return add(at, middle, last, shortest);
-      }
-    }
-    if (duration > 0) floor.segments.push_back({duration, first.acceleration, last.acceleration});
   }
 
   double downhill_, tolerance_;

@@ -1,17 +1,10 @@
-// A segment of a ground motion in two horizontal directions, and of the load that it causes.
+// The load that a segment of a ground motion in two horizontal directions causes.
 #pragma once
 
 #include "stickslip/base/vector2.hpp"
 #include "stickslip/ground/segment.hpp"
 
 namespace stickslip {
-
-/// Horizontal ground acceleration, linear from `start` to `end` within `duration`.
-struct PlanarSegment {
-  double duration;  ///< [s], finite, at least 0
-  Vector2 start;    ///< at its beginning [m/s^2], finite
-  Vector2 end;      ///< at its end [m/s^2], finite; equal to `start` if the value is held
-};
 
 /// The load p on a slider in the plane and the normal force N under it, both per unit mass and linear within
 /// `duration`; see PlanarSlider.

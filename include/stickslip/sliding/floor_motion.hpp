@@ -7,26 +7,18 @@
 #include <numeric>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "stickslip/base/equal.hpp"
 #include "stickslip/base/error.hpp"
 #include "stickslip/base/min_max.hpp"
+#include "stickslip/ground/floor_motion.hpp"
 #include "stickslip/ground/motion.hpp"
-#include "stickslip/ground/response_spectrum.hpp"
-#include "stickslip/ground/segment.hpp"
 #include "stickslip/run/detail/reading.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/sliding/trajectory.hpp"
 #include "stickslip/state/state.hpp"
 
 namespace stickslip {
-
-/// The absolute acceleration of the mass along x: segments, and impulses at impacts.
-struct FloorMotion {
-  std::vector<Segment> segments;  ///< consecutive, accelerations [m/s^2]
-  std::vector<Impulse> impulses;  ///< jumps of the velocity between them, in order
-};
 
 namespace detail {
 

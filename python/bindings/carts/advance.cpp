@@ -74,10 +74,9 @@ ValueError
       .def_property_readonly(
           "at_rest", [](const CartState& s) { return s.mode == CartMode::rest; }, "Whether the cart is at rest.")
       .def("__repr__", [](const CartState& s) {
-        return "<CartState: " + detail::description(s.displacement) + " m, yaw " + detail::shortest(s.yaw) + " rad, " +
-               (s.mode == CartMode::rest
-                    ? std::string("at rest")
-                    : detail::description(s.velocity) + " m/s, " + detail::shortest(s.yaw_rate) + " rad/s") +
+        return "<CartState: " + digits(s.displacement) + " m, yaw " + digits(s.yaw) + " rad, " +
+               (s.mode == CartMode::rest ? std::string("at rest")
+                                         : digits(s.velocity) + " m/s, " + digits(s.yaw_rate) + " rad/s") +
                ">";
       });
   m.def(

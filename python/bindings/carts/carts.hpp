@@ -9,6 +9,7 @@
 
 #include "parts.hpp"
 #include "stickslip/carts/cart.hpp"
+#include "stickslip/carts/forces.hpp"
 #include "stickslip/carts/integrate.hpp"
 #include "stickslip/carts/response.hpp"
 #include "stickslip/carts/state.hpp"
@@ -98,7 +99,8 @@ struct CartResponseWithInputs {
   Vector2 velocity;
   bool settle;
   std::vector<Wall> walls;
-  py::object time{}, events{};  // arrays, made on first access
+  py::object time{}, events{};         // arrays, made on first access
+  std::optional<CartForces> forces{};  // likewise
 };
 template <>
 inline constexpr auto parts<CartResponseWithInputs> =

@@ -3,12 +3,14 @@
 #include <cstdint>
 #include <string_view>
 
+#include "any_response.hpp"
 #include "carts/carts.hpp"
 #include "in_python.hpp"
 #include "planar/response.hpp"
 #include "sliding/response.hpp"
 #include "sliding/units_remark.hpp"
 #include "statistics/estimate.hpp"
+#include "structured.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -17,6 +19,19 @@ using Self = CartResponseWithInputs;
 
 const CartAsGiven& its_cart(const Self& self) { return self.cart.cast<const CartAsGiven&>(); }
 const GroundMotion& motion_of(const Self& self) { return self.motion.cast<const GroundMotion&>(); }
+
+const CartForces& forces_of(Self& self) {
+  if (!self.forces) {
+    const Cart& cart = its_cart(self).cart();
+    const GroundMotion& motion = motion_of(self);
+    CartForces found = [&] {
+      const py::gil_scoped_release released;
+      return forces(cart, motion, self.response);
+    }();
+    self.forces = std::move(found);
+  }
+  return *self.forces;
+}
 
 std::u32string_view name_of(CartEventKind kind) {
   switch (kind) {
@@ -41,36 +56,31 @@ py::array events_array(const std::vector<CartEvent>& events) {
     double time;
     Vector2 displacement;
     double yaw;
-    char32_t kind[10];
+    TextField<10> kind;
     std::int64_t support;
-    char32_t line[6];
+    TextField<6> line;
   };
-  py::dict layout;
-  layout["names"] = py::make_tuple("time", "displacement", "yaw", "kind", "support", "line");
-  layout["formats"] = py::make_tuple("f8", "(2,)f8", "f8", "U10", "i8", "U6");
-  layout["offsets"] = py::make_tuple(offsetof(Row, time), offsetof(Row, displacement), offsetof(Row, yaw),
-                                     offsetof(Row, kind), offsetof(Row, support), offsetof(Row, line));
-  layout["itemsize"] = sizeof(Row);
-  py::array rows(py::dtype::from_args(layout), static_cast<py::ssize_t>(events.size()));
-  auto* row = static_cast<Row*>(rows.mutable_data());
-  for (const CartEvent& e : events) {
+  const auto row = [&](std::size_t i) -> Row {
+    const CartEvent& e = events[i];
     const bool of_line = e.support != CartEvent::no_support;
-    *row = {e.time, e.displacement, e.yaw, {}, of_line ? static_cast<std::int64_t>(e.support) : -1, {}};
-    std::ranges::copy(name_of(e.kind), row->kind);
-    const std::u32string_view line = !of_line ? U"" : e.along ? U"along" : U"across";
-    std::ranges::copy(line, row->line);
-    ++row;
-  }
-  return rows;
+    return {e.time,
+            e.displacement,
+            e.yaw,
+            name_of(e.kind),
+            of_line ? static_cast<std::int64_t>(e.support) : -1,
+            !of_line  ? U""
+            : e.along ? U"along"
+                      : U"across"};
+  };
+  return structured(events.size(), row, std::pair("time", &Row::time), std::pair("displacement", &Row::displacement),
+                    std::pair("yaw", &Row::yaw), std::pair("kind", &Row::kind), std::pair("support", &Row::support),
+                    std::pair("line", &Row::line));
 }
 
 py::array work_array(const std::vector<SupportWork>& work) {
-  py::dict layout;
-  layout["names"] = py::make_tuple("scrub", "roll", "slide");
-  layout["formats"] = py::make_tuple("f8", "f8", "f8");
-  py::array rows(py::dtype::from_args(layout), static_cast<py::ssize_t>(work.size()));
-  static_assert(sizeof(SupportWork) == 3 * sizeof(double));
-  std::ranges::copy(work, static_cast<SupportWork*>(rows.mutable_data()));
+  py::array rows = structured(
+      work.size(), [&](std::size_t i) { return work[i]; }, std::pair("scrub", &SupportWork::scrub),
+      std::pair("roll", &SupportWork::roll), std::pair("slide", &SupportWork::slide));
   rows.attr("setflags")(py::arg("write") = false);
   return rows;
 }
@@ -145,35 +155,27 @@ py::tuple histories_cart(const CartAsGiven& cart, const py::object& motion) {
   return py::make_tuple(rows(r.displacement, r.yaw), rows(r.velocity, r.yaw_rate));
 }
 
-// At a time a CartState, at several a structured array.
 py::object at_times(const Self& self, const py::object& times) {
-  const std::vector<double> t = to_vector_or_number(times, "CartResponse.at: times", "s");
-  const Cart& cart = its_cart(self).cart();
-  const GroundMotion& motion = motion_of(self);
-  const std::vector<CartState> found = [&] {
-    const py::gil_scoped_release released;
-    return states_at(cart, motion, self.response, t);
-  }();
-  if (py::array::ensure(times).ndim() == 0) return py::cast(found.front());
   struct Row {
     double time;
     Vector2 displacement, velocity;
     double yaw, yaw_rate;
     bool at_rest;
   };
-  py::dict layout;
-  layout["names"] = py::make_tuple("time", "displacement", "velocity", "yaw", "yaw_rate", "at_rest");
-  layout["formats"] = py::make_tuple("f8", "(2,)f8", "(2,)f8", "f8", "f8", "?");
-  layout["offsets"] = py::make_tuple(offsetof(Row, time), offsetof(Row, displacement), offsetof(Row, velocity),
-                                     offsetof(Row, yaw), offsetof(Row, yaw_rate), offsetof(Row, at_rest));
-  layout["itemsize"] = sizeof(Row);
-  py::array rows(py::dtype::from_args(layout), static_cast<py::ssize_t>(found.size()));
-  auto* row = static_cast<Row*>(rows.mutable_data());
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const CartState& s = found[i];
-    *row++ = {t[i], s.displacement, s.velocity, s.yaw, s.yaw_rate, s.mode == CartMode::rest};
-  }
-  return rows;
+  return at(
+      "CartResponse", times,
+      [&](const std::vector<double>& t) {
+        const Cart& cart = its_cart(self).cart();
+        const GroundMotion& motion = motion_of(self);
+        const py::gil_scoped_release released;
+        return states_at(cart, motion, self.response, t);
+      },
+      [](double t, const CartState& s) {
+        return Row{t, s.displacement, s.velocity, s.yaw, s.yaw_rate, s.mode == CartMode::rest};
+      },
+      std::pair("time", &Row::time), std::pair("displacement", &Row::displacement),
+      std::pair("velocity", &Row::velocity), std::pair("yaw", &Row::yaw), std::pair("yaw_rate", &Row::yaw_rate),
+      std::pair("at_rest", &Row::at_rest));
 }
 
 std::optional<double> unless_nan(double value) { return std::isnan(value) ? std::nullopt : std::optional(value); }
@@ -238,17 +240,6 @@ Fields: scrub, across a wheel; roll, along it; slide, of a foot.)")
 Displacements are relative to the ground, along its axis and along its transverse direction. The arrays are read-only.)")
       .def_property_readonly(
           "cart", [](const Self& r) { return r.cart; }, "The `Cart`.")
-      .def_property_readonly(
-          "motion", [](const Self& r) { return r.motion; }, "The ground motion.")
-      .def_property_readonly(
-          "time",
-          [](Self& r) {
-            return keep(r.time, [&] { return times_of(r.motion, motion_of(r), r.response.displacement.size()); });
-          },
-          R"(Times of the samples [s], shape (N,).
-
-The times of the ground motion. With `settle=True`, if the cart still moves at the last of them, samples continue with the
-last step of the motion up to the first at or after rest; but see `truncated`.)")
       .def_property_readonly("displacement", history<&CartResponse::displacement>(),
                              "Displacement of the center of mass at `time` [m], shape (N, 2).")
       .def_property_readonly("velocity", history<&CartResponse::velocity>(),
@@ -256,30 +247,21 @@ last step of the motion up to the first at or after rest; but see `truncated`.)"
       .def_property_readonly("yaw", history<&CartResponse::yaw>(),
                              "phi at `time` [rad], shape (N,), positive from the axis toward the transverse direction.")
       .def_property_readonly("yaw_rate", history<&CartResponse::yaw_rate>(), "phi' at `time` [rad/s], shape (N,).")
-      .def("at", &at_times, py::arg("times"),
-           R"(The motion at any times, also between the samples and in the time until the cart rests.
+      .def_property_readonly(
+          "acceleration", [](const py::object& self) { return view(forces_of(self.cast<Self&>()).acceleration, self); },
+          R"(Absolute acceleration of the center of mass at `time` [m/s^2], shape (N, 2).
 
-Parameters
-----------
-times : float or array_like, shape (T,)
-    Times from the start of the motion to the last event of the response [s], in any order.
+The force of all supports per unit mass, r'' + n; that of the ground while the cart rests. At a sample where it jumps the
+value just after it; at the end of the ground motion and of the response that before. As exact as `integrate`; while a
+foot begins to slide, to 1e-4. On first access the motion is integrated once more.)")
+      .def_property_readonly(
+          "peak_force", [](Self& r) { return forces_of(r).peak; },
+          R"(Largest magnitude of the force of all supports per unit mass [m/s^2].
 
-Returns
--------
-CartState or ndarray
-    At one time a `CartState`, which has the headings, too. At several a structured array of shape (T,) with the fields
-    time [s], displacement [m] and velocity [m/s] of the center of mass, both of shape (T, 2), yaw [rad], yaw_rate [rad/s]
-    and at_rest.
-
-Raises
-------
-ValueError
-    A time before the start or after the end.
-
-Notes
------
-As exact as `integrate`: the motion is advanced again from sample to sample, with a step that ends at each time. Round-off
-grows as `condition` says.)")
+The largest absolute acceleration of the center of mass over all time, not only at samples; as exact as `acceleration`.)")
+      .def_property_readonly(
+          "peak_force_time", [](Self& r) { return forces_of(r).peak_time; },
+          "Time of `peak_force` [s], to 1e-6 of a slip; one of them, where it is constant.")
       .def_property_readonly("heading", &heading_of,
                              "Headings of the casters relative to the cart at `time` [rad], shape (casters, N).")
       .def_property_readonly(
@@ -366,11 +348,6 @@ A cart that never moves, but would if the ground accelerations were in g.)")
           "Whether the cart is at rest at the end (bool).")
       .def_property_readonly("state", number<&CartResponse::state>(),
                              "The `CartState` at the end; `advance` can continue from it.")
-      .def_property_readonly("truncated", number<&CartResponse::truncated>(),
-                             R"(Whether the samples end before the cart comes to rest (bool).
-
-Samples end at ten times the number of samples of the ground motion. Peak, events and energy still include the motion up to
-rest.)")
       .def_property_readonly("components", number<&CartResponse::components>(),
                              "Components of the ground motion that acted, such as 'axis + transverse' (str).")
       .def(
@@ -394,16 +371,22 @@ shows it, its `write` saves it as .gif, .mp4 or .html; see `stickslip.plotting.a
         const CartResponse& r = self.response;
         const std::string remark = remark_of(self);
         return "<CartResponse: peak " + digits(r.peak) + " m, of the outline " + digits(r.peak_outline) + " m, yaw " +
-               digits(r.peak_yaw) + " rad, residual (" + digits(r.residual.axis) + ", " +
-               digits(r.residual.transverse) + ") m, " + std::to_string(r.events.size()) + " events" +
-               (r.truncated ? ", samples end before rest" : "") + (remark.empty() ? "" : "; " + remark) + ">";
+               digits(r.peak_yaw) + " rad, residual " + digits(r.residual) + " m, " + std::to_string(r.events.size()) +
+               " events" + (r.truncated ? ", samples end before rest" : "") + (remark.empty() ? "" : "; " + remark) +
+               ">";
       });
-  define_tables<Self>(
-      m, "CartResponse",
+  define_response<Self>(
+      m, "CartResponse", times_over<Self>(&CartResponse::displacement), &at_times,
       {.system = "cart",
+       .object = "cart",
+       .states = R"(CartState or ndarray
+    At one time a `CartState`, which has the headings, too. At several a structured array of shape (T,) with the fields
+    time [s], displacement [m] and velocity [m/s] of the center of mass, both of shape (T, 2), yaw [rad], yaw_rate [rad/s]
+    and at_rest.)",
+       .at_notes = " Round-off grows as `condition` says.",
        .columns = R"(The columns are `ground_acceleration_axis` and `ground_acceleration_transverse` [m/s^2],
     `vertical_ground_acceleration` [m/s^2] if it acted, `displacement_axis` and `displacement_transverse` [m],
-    `velocity_axis` and `velocity_transverse` [m/s], `yaw` [rad], `yaw_rate` [rad/s], and for each caster that swivels
+    `velocity_axis` and `velocity_transverse` [m/s], `acceleration_axis` and `acceleration_transverse` [m/s^2], `yaw` [rad], `yaw_rate` [rad/s], and for each caster that swivels
     `heading_0` [rad] and so on, by the number of the support.)",
        .attributes = "`peak` and `peak_outline`",
        .results = R"(`peak` [m], `peak_time` [s], `peak_yaw` [rad], `peak_outline` [m], `peak_outline_time` [s],

@@ -378,13 +378,14 @@ OSError
            py::arg("title") = py::none(),
            R"(Plot the variances of displacement and velocity, the distribution of the peaks, and the velocity spectrum.
 
-Needs matplotlib (`pip install stickslip[plot]`). Returns the matplotlib Figure.)")
+Needs matplotlib (`pip install stickslip[plot]`). Takes `figure`, a matplotlib Figure or SubFigure to draw in, and
+`title`. Returns the figure.)")
       .def("plot_floors", plot_in("plot_floors", "figure"), py::kw_only(), py::arg("figure") = py::none(),
            py::arg("title") = py::none(),
            R"(Plot the peak accelerations and drifts of the floors by height, with quantiles.
 
-ValueError for sliders, for structures without floors, and with fewer than two members. Needs matplotlib
-(`pip install stickslip[plot]`). Returns the matplotlib Figure.)")
+Needs matplotlib (`pip install stickslip[plot]`). Takes `figure`, a matplotlib Figure or SubFigure to draw in, and
+`title`. Returns the figure. ValueError for sliders, for structures without floors, and with fewer than two members.)")
       .def(
           "to_dataframe",
           [](const py::object& self, const std::string& by) {

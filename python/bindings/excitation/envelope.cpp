@@ -113,7 +113,7 @@ float or ndarray
            [](const Envelope& e) {
              if (is_table(e))
                return "<Envelope: table of " + std::to_string(e.time().size()) + " points, " +
-                      detail::shortest(e.time().front()) + " to " + detail::shortest(e.time().back()) + " s>";
+                      digits(e.time().front()) + " to " + digits(e.time().back()) + " s>";
              return "Envelope(build_up=" + literal(e.build_up()) + ", strong_duration=" + literal(e.strong_duration()) +
                     ", decay_rate=" + literal(e.decay_rate()) + ")";
            })

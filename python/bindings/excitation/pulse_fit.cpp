@@ -15,8 +15,8 @@ void bind_pulse_fit(py::module_& m) {
       .def_readonly("center_frequency_hz", &PulseFit::center_frequency_hz, "f_c = 1 / (2 Dt) [Hz], thesis (5.60).")
       .def_readonly("misfit", &PulseFit::misfit, "The integral of abs(S - S of the pulses) over that of S, below 1.")
       .def("__repr__", [](const PulseFit& fit) {
-        return "<PulseFit: half_width " + detail::shortest(fit.half_width) + " s, intensity " +
-               detail::shortest(fit.intensity) + " m^2/s^5, misfit " + detail::shortest(fit.misfit) + ">";
+        return "<PulseFit: half_width " + digits(fit.half_width) + " s, intensity " + digits(fit.intensity) +
+               " m^2/s^5, misfit " + digits(fit.misfit) + ">";
       });
 
   m.def(

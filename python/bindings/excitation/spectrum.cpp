@@ -84,8 +84,8 @@ Spectrum restored(const std::string& kind, const py::dict& p) {
 
 std::string repr_of_spectrum(const Spectrum& spectrum) {
   if (const auto* table = std::get_if<Spectrum::Table>(&spectrum.form()))
-    return "<Spectrum: table of " + std::to_string(table->omega.size()) + " points, " +
-           detail::shortest(spectrum.low()) + " to " + detail::shortest(spectrum.high()) + " rad/s>";
+    return "<Spectrum: table of " + std::to_string(table->omega.size()) + " points, " + digits(spectrum.low()) +
+           " to " + digits(spectrum.high()) + " rad/s>";
   const auto [kind, parameters] = described(spectrum);
   std::string text;
   for (const auto& [name, value] : parameters) {

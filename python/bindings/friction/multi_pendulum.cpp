@@ -249,8 +249,7 @@ Needs matplotlib. Takes `ax`, matplotlib Axes to draw in, and `title`. Returns t
       .def("__repr__", [](const PendulumLoop& loop) {
         double most = 0;
         for (const auto& corner : loop.corners) most = std::max(most, std::abs(corner.force));
-        return "<PendulumLoop: " + std::to_string(loop.force.size()) + " points, largest F/W " +
-               detail::shortest(most) + ">";
+        return "<PendulumLoop: " + std::to_string(loop.force.size()) + " points, largest F/W " + digits(most) + ">";
       });
 
   def_bearing(m, "DoublePendulum", 2, false,

@@ -412,10 +412,10 @@ Every number reads back as the same double.)")
              const auto dt = dt_of(g);
              return "<GroundMotion" + (g.name().empty() ? "" : " '" + g.name() + "'") + ": " +
                     std::to_string(g.samples()) + " samples" +
-                    (dt ? ", dt = " + detail::shortest(*dt) + " s" : ", uneven times") + ", " +
-                    detail::shortest(std::round(g.duration() * 1e3) / 1e3) + " s, peak " +
-                    digits(g.peak_acceleration()) + " m/s^2 (" + digits(g.peak_acceleration() / standard_gravity) +
-                    " g), " + name_of(g.interpolation()) + (g.has_transverse() || g.has_vertical() ? ", with " : "") +
+                    (dt ? ", dt = " + digits(*dt) + " s" : ", uneven times") + ", " + digits(g.duration()) +
+                    " s, peak " + digits(g.peak_acceleration()) + " m/s^2 (" +
+                    digits(g.peak_acceleration() / standard_gravity) + " g), " + name_of(g.interpolation()) +
+                    (g.has_transverse() || g.has_vertical() ? ", with " : "") +
                     (g.has_transverse() ? "transverse" : "") + (g.has_transverse() && g.has_vertical() ? " and " : "") +
                     (g.has_vertical() ? "vertical" : "") + ">";
            })

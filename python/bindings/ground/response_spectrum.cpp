@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "carts/carts.hpp"
 #include "ground/suite.hpp"
 #include "in_python.hpp"
 #include "parts.hpp"
@@ -44,11 +45,22 @@ py::array_t<double> rows_of(const py::object& self) {
   return flat.attr("reshape")(spectrum.damping.size(), spectrum.periods.size());
 }
 
-PlanarFloorMotion floor_in_plane(const PlanarResponseWithInputs& response) {
-  const auto& slider = response.slider.cast<const AnyPlanarSlider&>();
-  const auto& ground = response.motion.cast<const GroundMotion&>();
-  const py::gil_scoped_release released;
-  return floor_motion(slider, ground, response.response);
+bool is_in_plane(const py::object& response) {
+  return py::isinstance<PlanarResponseWithInputs>(response) || py::isinstance<CartResponseWithInputs>(response);
+}
+
+PlanarFloorMotion floor_in_plane(const py::object& of) {
+  const auto floor = [](const auto& system, const auto& response) {
+    const auto& ground = response.motion.template cast<const GroundMotion&>();
+    const py::gil_scoped_release released;
+    return floor_motion(system, ground, response.response);
+  };
+  if (py::isinstance<CartResponseWithInputs>(of)) {
+    const auto& response = of.cast<const CartResponseWithInputs&>();
+    return floor(response.cart.cast<const CartAsGiven&>().cart(), response);
+  }
+  const auto& response = of.cast<const PlanarResponseWithInputs&>();
+  return floor(response.slider.cast<const AnyPlanarSlider&>(), response);
 }
 
 }  // namespace
@@ -128,11 +140,12 @@ The values are nested lists of shape (D, P); every number reads back as the same
           const py::object ground = motion.attr("motion");
           const std::string name =
               py::isinstance<GroundMotion>(ground) ? ground.cast<const GroundMotion&>().name() : std::string();
-          spectrum.cast<ResponseSpectrum&>().name = "sliding mass" + (name.empty() ? name : ", " + name);
+          const char* what = py::isinstance<CartResponseWithInputs>(motion) ? "cart" : "sliding mass";
+          spectrum.cast<ResponseSpectrum&>().name = what + (name.empty() ? name : ", " + name);
           return spectrum;
         };
-        if (py::isinstance<PlanarResponseWithInputs>(motion)) {
-          const FloorMotion floor = floor_in_plane(motion.cast<const PlanarResponseWithInputs&>()).along(direction);
+        if (is_in_plane(motion)) {
+          const FloorMotion floor = floor_in_plane(motion).along(direction);
           return of_mass(answer(floor.segments, floor.impulses));
         }
         if (direction != 0)
@@ -140,8 +153,9 @@ The values are nested lists of shape (D, P); every number reads back as the same
               "response_spectrum: direction needs a ground motion or a response with two horizontal components");
         if (!py::isinstance<ResponseWithInputs>(motion))
           throw py::type_error(
-              "response_spectrum: motion must be a GroundMotion, a Response, a PlanarResponse or a "
-              "Suite, got " +
+              "response_spectrum: motion must be a GroundMotion, a Suite, or the response of a slider, a structure or "
+              "a "
+              "cart, got " +
               py::repr(motion).cast<std::string>());
         const auto& response = motion.cast<const ResponseWithInputs&>();
         const FloorMotion floor = with_inputs(response, [&](const auto& slider, const auto& ground) {
@@ -151,69 +165,10 @@ The values are nested lists of shape (D, P); every number reads back as the same
       },
       py::arg("motion"), py::arg("periods"), py::arg("damping") = 0.05, py::kw_only(),
       py::arg("kind") = "pseudo_acceleration", py::arg("direction") = 0.0,
-      R"(Compute the elastic response spectrum of a ground motion, or of the mass of a slider: a floor spectrum.
+      "The spectrum of all but structures, see `stickslip.response_spectrum`.");
 
-Each linear oscillator x'' + 2 zeta wn x' + wn^2 x = -n(t), wn = 2 pi / T, is at rest when the motion begins. The value
-is the largest magnitude over all time, in continuous time, not only at the samples. Between samples the response is
-exact, for linear and constant interpolation and any ratio of T to the time step. After the last sample n is zero; the
-maximum includes the free vibration that follows.
-
-Parameters
-----------
-motion : GroundMotion, Response, PlanarResponse or Suite
-    A suite gives the spectra of all its ground motions, as `SuiteSpectra`. A response excites the oscillators with the
-    absolute acceleration of the sliding mass along x, including its jumps where a slip begins, reverses or stops. An
-    impact on a stop, and the friction impulse of a landing, change the velocity of the mass at once: each oscillator
-    gets that jump as an impulse. Settle the response, otherwise the floor motion ends with the record. `rotd` gives the
-    spectra of a station, or of a response in the plane, in all directions.
-periods : float or array_like, shape (P,)
-    Undamped natural periods T [s], in any order: each from 1e-6 to 1e6, or 0, a rigid oscillator, which gives the PGA
-    as acceleration and 0 otherwise.
-damping : float or array_like, shape (D,), optional
-    Ratio of critical damping zeta, at least 0 and below 2; 5 % is 0.05.
-kind : str, optional
-    'pseudo_acceleration', wn^2 max |x| [m/s^2]; 'pseudo_velocity', wn max |x| [m/s]; 'displacement', max |x| [m],
-    relative to the ground; 'velocity', max |x'| [m/s], relative to the ground; 'acceleration', max |x'' + n| [m/s^2],
-    absolute.
-direction : float, optional
-    Horizontal direction of the oscillators, clockwise from the axis of the motion [degrees]: 90 is the transverse
-    component. Other values than 0 need a ground motion with a transverse component, or a response in the plane.
-
-Returns
--------
-ResponseSpectrum, or SuiteSpectra of a suite
-
-Raises
-------
-ValueError
-    A period, a damping ratio or a kind that is not allowed (names its index); a truncated response; an acceleration at
-    period 0 of a response with impacts, which is infinite.
-
-Warns
------
-PlausibilityWarning
-    A period of 60 s or more, which may be in ms.
-
-Notes
------
-Accurate to round-off: some 1e-15 times the square root of the number of samples, and times the radians in a time step
-if these exceed 1. If the ground velocity of a record does not end at zero, the ground keeps this velocity, and
-oscillators of long period continue to the displacement x' / wn: correct the baseline first.
-
-The same accuracy holds for a response with a constant slip level on one axis, without spring and damper. Other responses are
-approximated by straight segments of the acceleration, which is as exact as `integrate`. Their error is at most 1e-6 of
-its maximum e, which changes a pseudo-acceleration by at most 1e-6 e coth(pi zeta / (2 sqrt(1 - zeta^2))): 13e-6 e at
-5 %. After an impact, the pseudo-acceleration of a stiff oscillator grows as 2 pi / T: at periods below the duration of
-a real contact it depends on that contact, which is not in the model.
-
-100 periods of 10,000 samples take some 2 ms with even times (AVX-512), and up to 15 ms for white noise at critical
-damping. Uneven times take some 0.3 us for each period, damping ratio and change of the time step.
-
-References
-----------
-N. C. Nigam, P. C. Jennings, Bull. Seism. Soc. Am. 59 (1969), 909-922, for the response at the samples.)");
-
-  py::class_<PlanarFloorMotion>(m, "_PlanarFloorMotion", "The floor motion of a response in the plane, for `rotd`.")
+  py::class_<PlanarFloorMotion>(m, "_PlanarFloorMotion",
+                                "The floor motion of a response in the plane or of a cart, for `rotd`.")
       .def(py::init(&floor_in_plane), py::arg("response"))
       .def(
           "spectrum",

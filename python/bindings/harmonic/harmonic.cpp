@@ -158,9 +158,8 @@ velocity : ndarray, shape (N,)
     x' [m/s].)")
       .def("__repr__", [](const SliderOrbit& self) {
         const Orbit& o = self.orbit;
-        return "<Orbit: amplitude " + detail::shortest(o.amplitude) + " m at " + detail::shortest(o.omega) +
-               " rad/s, " + std::to_string(o.stops_per_cycle) + " stops a cycle, " +
-               (o.stable ? "stable>" : "unstable>");
+        return "<Orbit: amplitude " + digits(o.amplitude) + " m at " + digits(o.omega) + " rad/s, " +
+               std::to_string(o.stops_per_cycle) + " stops a cycle, " + (o.stable ? "stable>" : "unstable>");
       });
 
   value_class<SliderBranch>(

@@ -80,13 +80,12 @@ ValueError
       .def_readonly("sliding_distance", &PlanarState::sliding_distance, "Path length so far [m].")
       .def_readonly("heat", &PlanarState::heat, "Heat left in the sliding surface; updated if the law depends on it.")
       .def("__repr__", [](const PlanarState& state) {
-        return "<PlanarState: r " + detail::description(state.displacement) + " m, r' " +
-               detail::description(state.velocity) + " m/s, " +
-               (state.in_flight                        ? "in flight, gap " + detail::shortest(state.gap) + " m"
+        return "<PlanarState: r " + digits(state.displacement) + " m, r' " + digits(state.velocity) + " m/s, " +
+               (state.in_flight                        ? "in flight, gap " + digits(state.gap) + " m"
                 : state.mode == PlanarMode::stuck      ? std::string("stuck")
                 : state.mode == PlanarMode::along_stop ? std::string("sliding along the stop")
                                                        : std::string("sliding")) +
-               (state.sliding_distance > 0 ? ", slid " + detail::shortest(state.sliding_distance) + " m" : "") + ">";
+               (state.sliding_distance > 0 ? ", slid " + digits(state.sliding_distance) + " m" : "") + ">";
       });
   m.def("advance", &advanced, py::arg("slider"), py::arg("state"), py::arg("dt"), py::arg("start"),
         py::arg("end") = py::none(), py::kw_only(), py::arg("vertical_start") = 0.0,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "any_response.hpp"
 #include "in_python.hpp"
 #include "parts.hpp"
 #include "sliding/response.hpp"
@@ -17,31 +18,6 @@ using Self = PlanarResponseWithInputs;
 
 const AnyPlanarSlider& slider_of_response(const Self& self) { return self.slider.cast<const AnyPlanarSlider&>(); }
 const GroundMotion& motion_of(const Self& self) { return self.motion.cast<const GroundMotion&>(); }
-
-// One row of `PlanarResponse.events`, with the layout of the NumPy type below.
-struct EventRow {
-  double time;
-  Vector2 displacement, velocity;
-  char32_t kind[10];
-};
-
-py::array planar_events_array(const std::vector<PlanarEvent>& events) {
-  py::dict layout;
-  layout["names"] = py::make_tuple("time", "displacement", "velocity", "kind");
-  layout["formats"] = py::make_tuple("f8", "(2,)f8", "(2,)f8", "U10");
-  layout["offsets"] = py::make_tuple(offsetof(EventRow, time), offsetof(EventRow, displacement),
-                                     offsetof(EventRow, velocity), offsetof(EventRow, kind));
-  layout["itemsize"] = sizeof(EventRow);
-  py::array rows(py::dtype::from_args(layout), static_cast<py::ssize_t>(events.size()));
-  auto* row = static_cast<EventRow*>(rows.mutable_data());
-  for (const PlanarEvent& e : events) {
-    *row = {e.time, e.displacement, e.velocity, {}};
-    const std::u32string_view kind = name_of(e.kind);
-    std::copy(kind.begin(), kind.end(), row->kind);
-    ++row;
-  }
-  return rows;
-}
 
 const PlanarForces& forces_of(Self& self) {
   if (!self.forces) {
@@ -122,33 +98,14 @@ std::string remark_of(const Self& self) {
   return pendulum_remark(mounting_of(slider), self.response.peak);
 }
 
-// At a time a PlanarState, at several a structured array.
 py::object at_times(const Self& self, const py::object& times) {
-  const std::vector<double> t = to_vector_or_number(times, "PlanarResponse.at: times", "s");
-  const AnyPlanarSlider& slider = slider_of_response(self);
-  const GroundMotion& motion = motion_of(self);
-  const std::vector<PlanarState> found = [&] {
+  const auto find = [&](const std::vector<double>& t) {
+    const AnyPlanarSlider& slider = slider_of_response(self);
+    const GroundMotion& motion = motion_of(self);
     const py::gil_scoped_release released;
     return states_at(slider, motion, self.response, t);
-  }();
-  if (py::array::ensure(times).ndim() == 0) return py::cast(found.front());
-  struct Row {
-    double time;
-    Vector2 displacement, velocity;
-    double gap;
-    bool stuck;
   };
-  py::dict layout;
-  layout["names"] = py::make_tuple("time", "displacement", "velocity", "gap", "stuck");
-  layout["formats"] = py::make_tuple("f8", "(2,)f8", "(2,)f8", "f8", "?");
-  layout["offsets"] = py::make_tuple(offsetof(Row, time), offsetof(Row, displacement), offsetof(Row, velocity),
-                                     offsetof(Row, gap), offsetof(Row, stuck));
-  layout["itemsize"] = sizeof(Row);
-  py::array rows(py::dtype::from_args(layout), static_cast<py::ssize_t>(found.size()));
-  auto* row = static_cast<Row*>(rows.mutable_data());
-  for (std::size_t i = 0; i < found.size(); ++i)
-    *row++ = {t[i], found[i].displacement, found[i].velocity, found[i].gap, found[i].mode == PlanarMode::stuck};
-  return rows;
+  return slider_at("PlanarResponse", times, find);
 }
 
 }  // namespace
@@ -168,17 +125,6 @@ axis of the ground motion, then along its transverse direction, 90 degrees clock
 read-only.)")
       .def_property_readonly(
           "slider", [](const Self& r) { return r.slider; }, "The `PlanarSlider`.")
-      .def_property_readonly(
-          "motion", [](const Self& r) { return r.motion; }, "The ground motion.")
-      .def_property_readonly(
-          "time",
-          [](Self& r) {
-            return keep(r.time, [&] { return times_of(r.motion, motion_of(r), r.response.displacement.size()); });
-          },
-          R"(Times of the samples [s], shape (N,).
-
-The times of the ground motion. With `settle=True`, if the slider still moves at the last of them, samples continue with
-the last step of the motion up to the first at or after rest; but see `truncated`.)")
       .def_property_readonly("displacement", history<&PlanarResponse::displacement>(), "r at `time` [m], shape (N, 2).")
       .def_property_readonly("velocity", history<&PlanarResponse::velocity>(), "r' at `time` [m/s], shape (N, 2).")
       .def_property_readonly("acceleration",
@@ -221,11 +167,6 @@ None unless the friction law depends on it.)")
       .def_property_readonly("gap", &gap_of, R"(Gap between slider and ground at `time` [m], shape (N,).
 
 0 except in flight, with contact='flight'.)")
-      .def_property_readonly("truncated", number<&PlanarResponse::truncated>(),
-                             R"(Whether the samples end before the slider comes to rest (bool).
-
-Samples end at ten times the number of samples of the ground motion. Peak, residual, events and energy still include the
-motion up to rest.)")
       .def_property_readonly("components", number<&PlanarResponse::components>(),
                              R"(Components of the ground motion that acted, joined by " + " (str).
 
@@ -238,31 +179,8 @@ motion up to rest.)")
 
 A pendulum that moves beyond 0.2 of its radius; a slider that never slips, but would if the ground accelerations were in
 g.)")
-      .def("at", &at_times, py::arg("times"),
-           R"(The motion at any times, also between the samples and in the time until the slider rests.
-
-Parameters
-----------
-times : float or array_like, shape (T,)
-    Times from the start of the motion to the last event of the response [s], in any order.
-
-Returns
--------
-PlanarState or ndarray
-    At one time a `PlanarState`. At several a structured array of shape (T,) with the fields time [s], displacement [m]
-    and velocity [m/s], both of shape (T, 2), gap [m] (between slider and ground, in flight) and stuck. At an impact or
-    a landing, the state after it.
-
-Raises
-------
-ValueError
-    A time before the start or after the end.
-
-Notes
------
-As exact as `integrate`: the motion is integrated again, and a step ends at each time.)")
       .def_property_readonly(
-          "events", [](Self& r) { return keep(r.events, [&] { return planar_events_array(r.response.events); }); },
+          "events", [](Self& r) { return keep(r.events, [&] { return events_array(r.response.events); }); },
           R"(Events sorted by time: a structured array.
 
 Fields: time [s], displacement [m] and velocity [m/s], both of shape (2,), kind ('breakaway', 'reversal', 'arrest',
@@ -270,8 +188,7 @@ Fields: time [s], displacement [m] and velocity [m/s], both of shape (2,), kind 
 there. The velocity of an impact is that before it. A reversal is a stop of no duration; motions in the plane rarely
 have one, because the velocity turns without vanishing.)")
       .def_property_readonly(
-          "impacts",
-          [](const Self& r) { return planar_events_array(events_of_kind(r.response.events, EventKind::impact)); },
+          "impacts", [](const Self& r) { return events_array(events_of_kind(r.response.events, EventKind::impact)); },
           R"(Impacts on the stop, sorted by time: a structured array like `events`.
 
 The velocity is that before the impact [m/s].)")
@@ -332,14 +249,18 @@ The axis of the ground motion points upward, and the transverse direction to the
 begin and end of the part of the lower panels to draw [s]. Returns the figure, see `stickslip.plotting.plot_planar_response`.)")
       .def("__repr__", [](const Self& r) {
         const std::string remark = remark_of(r);
-        return "<PlanarResponse: peak " + digits(r.response.peak) + " m, residual (" +
-               digits(r.response.residual.axis) + ", " + digits(r.response.residual.transverse) + ") m, " +
-               std::to_string(r.response.events.size()) + " events" +
+        return "<PlanarResponse: peak " + digits(r.response.peak) + " m, residual " + digits(r.response.residual) +
+               " m, " + std::to_string(r.response.events.size()) + " events" +
                (r.response.truncated ? ", samples end before rest" : "") + (remark.empty() ? "" : "; " + remark) + ">";
       });
-  define_tables<Self>(
-      m, "PlanarResponse",
+  define_response<Self>(
+      m, "PlanarResponse", times_over<Self>(&PlanarResponse::displacement), &at_times,
       {.system = "slider",
+       .object = "slider",
+       .states = R"(PlanarState or ndarray
+    At one time a `PlanarState`. At several a structured array of shape (T,) with the fields time [s], displacement [m]
+    and velocity [m/s], both of shape (T, 2), gap [m] (between slider and ground, in flight) and stuck. At an impact or
+    a landing, the state after it.)",
        .columns = R"(The columns are those of `Response.to_dataframe`, two for each vector, such as
     `displacement_axis` and `displacement_transverse` [m].)",
        .attributes = "`peak` and `residual`",

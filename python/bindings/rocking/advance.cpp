@@ -59,8 +59,7 @@ ValueError
           "Side to which the block has overturned, 'right' or 'left'; None if it has not.")
       .def("__repr__", [](const RockingState& state) {
         const auto side = side_name(state.overturned);
-        return "<RockingState: theta " + detail::shortest(state.rotation) + " rad, theta' " +
-               detail::shortest(state.rate) + " rad/s, " +
+        return "<RockingState: theta " + digits(state.rotation) + " rad, theta' " + digits(state.rate) + " rad/s, " +
                (side                                ? "overturned to the " + *side
                 : state.mode == RockingMode::rest   ? std::string("at rest")
                 : state.mode == RockingMode::slide  ? std::string("sliding on its base")

@@ -8,12 +8,14 @@
 #include <string>
 #include <string_view>
 
+#include "any_response.hpp"
 #include "in_python.hpp"
 #include "sliding/response.hpp"
 #include "sliding/units_remark.hpp"
 #include "statistics/estimate.hpp"
 #include "stickslip/rocking/integrate.hpp"
 #include "stickslip/rocking/sensitivity.hpp"
+#include "structured.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -50,25 +52,18 @@ std::u32string_view name_of(RockingEventKind kind) {
 py::array events_array(const std::vector<RockingEvent>& events) {
   struct Row {
     double time, rotation, rate;
-    char32_t kind[10];
+    TextField<10> kind;
     double rate_after, displacement, speed;
     std::int64_t side;
   };
-  py::dict layout;
-  layout["names"] = py::make_tuple("time", "rotation", "rate", "kind", "rate_after", "displacement", "speed", "side");
-  layout["formats"] = py::make_tuple("f8", "f8", "f8", "U10", "f8", "f8", "f8", "i8");
-  layout["offsets"] =
-      py::make_tuple(offsetof(Row, time), offsetof(Row, rotation), offsetof(Row, rate), offsetof(Row, kind),
-                     offsetof(Row, rate_after), offsetof(Row, displacement), offsetof(Row, speed), offsetof(Row, side));
-  layout["itemsize"] = sizeof(Row);
-  py::array rows(py::dtype::from_args(layout), static_cast<py::ssize_t>(events.size()));
-  auto* row = static_cast<Row*>(rows.mutable_data());
-  for (const RockingEvent& e : events) {
-    *row = {e.time, e.rotation, e.rate, {}, e.rate_after, e.displacement, e.speed, e.side};
-    std::ranges::copy(name_of(e.kind), row->kind);
-    ++row;
-  }
-  return rows;
+  const auto row = [&](std::size_t i) -> Row {
+    const RockingEvent& e = events[i];
+    return {e.time, e.rotation, e.rate, name_of(e.kind), e.rate_after, e.displacement, e.speed, e.side};
+  };
+  return structured(events.size(), row, std::pair("time", &Row::time), std::pair("rotation", &Row::rotation),
+                    std::pair("rate", &Row::rate), std::pair("kind", &Row::kind),
+                    std::pair("rate_after", &Row::rate_after), std::pair("displacement", &Row::displacement),
+                    std::pair("speed", &Row::speed), std::pair("side", &Row::side));
 }
 
 template <auto member>
@@ -177,33 +172,26 @@ py::tuple histories_block(const Block& block, const py::object& motion) {
   return py::make_tuple(array_of(std::move(response.rotation)), array_of(std::move(response.rate)));
 }
 
-// At a time a RockingState, at several a structured array.
 py::object at_times(const Self& self, const py::object& times) {
-  const std::vector<double> t = to_vector_or_number(times, "RockingResponse.at: times", "s");
-  const GroundMotion& motion = motion_of(self);
-  const auto of = [&](const auto& block) {
-    const py::gil_scoped_release released;
-    return states_at(block, motion, self.response, t);
-  };
-  const std::vector<RockingState> found =
-      is_rigid(self) ? of(self.block.cast<const RockingBlock&>()) : of(self.block.cast<const SlenderBlock&>());
-  if (py::array::ensure(times).ndim() == 0) return py::cast(found.front());
   struct Row {
     double time, rotation, rate;
     bool at_rest, in_flight;
   };
-  py::dict layout;
-  layout["names"] = py::make_tuple("time", "rotation", "rate", "at_rest", "in_flight");
-  layout["formats"] = py::make_tuple("f8", "f8", "f8", "?", "?");
-  layout["offsets"] = py::make_tuple(offsetof(Row, time), offsetof(Row, rotation), offsetof(Row, rate),
-                                     offsetof(Row, at_rest), offsetof(Row, in_flight));
-  layout["itemsize"] = sizeof(Row);
-  py::array rows(py::dtype::from_args(layout), static_cast<py::ssize_t>(found.size()));
-  auto* row = static_cast<Row*>(rows.mutable_data());
-  for (std::size_t i = 0; i < found.size(); ++i)
-    *row++ = {t[i], found[i].rotation, found[i].rate, found[i].mode == RockingMode::rest,
-              found[i].mode == RockingMode::flight};
-  return rows;
+  return at(
+      "RockingResponse", times,
+      [&](const std::vector<double>& t) {
+        const GroundMotion& motion = motion_of(self);
+        const auto of = [&](const auto& block) {
+          const py::gil_scoped_release released;
+          return states_at(block, motion, self.response, t);
+        };
+        return is_rigid(self) ? of(self.block.cast<const RockingBlock&>()) : of(self.block.cast<const SlenderBlock&>());
+      },
+      [](double t, const RockingState& s) {
+        return Row{t, s.rotation, s.rate, s.mode == RockingMode::rest, s.mode == RockingMode::flight};
+      },
+      std::pair("time", &Row::time), std::pair("rotation", &Row::rotation), std::pair("rate", &Row::rate),
+      std::pair("at_rest", &Row::at_rest), std::pair("in_flight", &Row::in_flight));
 }
 
 auto picture(const char* function) {
@@ -266,17 +254,6 @@ In rad, or rad/s, per unit of the parameter.)")
 Rotations are relative to the ground, positive about the right corner. The arrays are read-only.)")
       .def_property_readonly(
           "block", [](const Self& r) { return r.block; }, "The `SlenderBlock` or `RockingBlock`.")
-      .def_property_readonly(
-          "motion", [](const Self& r) { return r.motion; }, "The ground motion.")
-      .def_property_readonly(
-          "time",
-          [](Self& r) {
-            return keep(r.time, [&] { return times_of(r.motion, motion_of(r), r.response.rotation.size()); });
-          },
-          R"(Times of the samples [s], shape (N,).
-
-The times of the ground motion. With `settle=True`, if the block still rocks at the last of them, samples continue with the
-last step of the motion up to the first at or after rest; but see `truncated`.)")
       .def_property_readonly("rotation", history<&RockingResponse::rotation>(),
                              "theta at `time` [rad], shape (N,); pi/2 in magnitude where the block lies on its side.")
       .def_property_readonly("rate", history<&RockingResponse::rate>(), "theta' at `time` [rad/s], shape (N,).")
@@ -298,29 +275,6 @@ Of a `RockingBlock`; ValueError for a `SlenderBlock`, which has no height.)")
       .def_property_readonly(
           "gap", history_or_zeros<&RockingResponse::gap>(),
           "Height of the lower corner above the ground at `time` [m], shape (N,); 0 except in flight.")
-      .def("at", &at_times, py::arg("times"),
-           R"(The motion at any times, also between the samples and in the time until the block rests.
-
-Parameters
-----------
-times : float or array_like, shape (T,)
-    Times from the start of the motion to the last event of the response [s], in any order.
-
-Returns
--------
-RockingState or ndarray
-    At one time a `RockingState`. At several a structured array of shape (T,) with the fields time [s], rotation [rad],
-    rate [rad/s], at_rest and in_flight. At an impact, the state after it.
-
-Raises
-------
-ValueError
-    A time before the start or after the end.
-
-Notes
------
-As exact as `integrate`: the motion is advanced again from sample to sample, with a step that ends at each time. Round-off
-grows as `condition` says.)")
       .def_property_readonly("residual", number<&RockingResponse::residual>(),
                              "Displacement of the base at the end [m].")
       .def_property_readonly("sliding_distance", number<&RockingResponse::sliding_distance>(),
@@ -424,11 +378,6 @@ g.)")
           "Whether the block rests on its base at the end (bool).")
       .def_property_readonly("state", number<&RockingResponse::state>(),
                              "The `RockingState` at the end; `advance` can continue from it.")
-      .def_property_readonly("truncated", number<&RockingResponse::truncated>(),
-                             R"(Whether the samples end before the block comes to rest (bool).
-
-Samples end at ten times the number of samples of the ground motion. Peak, events and energy still include the motion up to
-rest.)")
       .def_property_readonly("components", number<&RockingResponse::components>(),
                              "Components of the ground motion that acted: 'axis' or 'axis + vertical' (str).")
       .def("plot", picture("plot_rocking_response"), py::kw_only(), py::arg("figure") = py::none(),
@@ -460,9 +409,14 @@ the animation, `fps`, frames in a second, `title`, and `size`, width and height 
                (is_rigid(r) ? ", base displaced by " + digits(r.response.residual) + " m" : "") +
                (r.response.truncated ? ", samples end before rest" : "") + (remark.empty() ? "" : "; " + remark) + ">";
       });
-  define_tables<Self>(
-      m, "RockingResponse",
+  define_response<Self>(
+      m, "RockingResponse", times_over<Self>(&RockingResponse::rotation), &at_times,
       {.system = "block",
+       .object = "block",
+       .states = R"(RockingState or ndarray
+    At one time a `RockingState`. At several a structured array of shape (T,) with the fields time [s], rotation [rad],
+    rate [rad/s], at_rest and in_flight. At an impact, the state after it.)",
+       .at_notes = " Round-off grows as `condition` says.",
        .columns = R"(The columns are `ground_acceleration` [m/s^2], `vertical_ground_acceleration` [m/s^2] if it
     acted, `rotation` [rad], `rate` [rad/s], and of a `RockingBlock` `displacement` and `top_displacement` [m].)",
        .attributes = "`peak_rotation` and\n    `overturned`, empty if the block stands",

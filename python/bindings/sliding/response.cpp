@@ -7,40 +7,14 @@
 #include <string_view>
 #include <system_error>
 
+#include "any_response.hpp"
 #include "in_python.hpp"
 #include "parts.hpp"
 #include "sliding/units_remark.hpp"
 #include "statistics/estimate.hpp"
+#include "structured.hpp"
 
 namespace stickslip::python {
-namespace {
-
-// One row of `Response.events`, with the layout of the NumPy type below.
-struct EventRow {
-  double time, displacement, velocity;
-  char32_t kind[10];
-};
-
-}  // namespace
-
-py::array events_array(const std::vector<Event>& events) {
-  py::dict layout;
-  layout["names"] = py::make_tuple("time", "displacement", "velocity", "kind");
-  layout["formats"] = py::make_tuple("f8", "f8", "f8", "U10");
-  layout["offsets"] = py::make_tuple(offsetof(EventRow, time), offsetof(EventRow, displacement),
-                                     offsetof(EventRow, velocity), offsetof(EventRow, kind));
-  layout["itemsize"] = sizeof(EventRow);
-  py::array rows(py::dtype::from_args(layout), static_cast<py::ssize_t>(events.size()));
-  auto* row = static_cast<EventRow*>(rows.mutable_data());
-  for (const Event& e : events) {
-    *row = {e.time, e.displacement, e.velocity, {}};
-    const std::u32string_view kind = name_of(e.kind);
-    std::copy(kind.begin(), kind.end(), row->kind);
-    ++row;
-  }
-  return rows;
-}
-
 namespace {
 
 py::object events_of(ResponseWithInputs& self) {
@@ -141,32 +115,13 @@ Sensitivity sensitivity_of(const ResponseWithInputs& self, const std::string& na
   });
 }
 
-// At a time a State, at several a structured array.
 py::object at_times(const ResponseWithInputs& self, const py::object& times) {
-  const auto states = [&](const std::vector<double>& t) {
+  return slider_at("Response", times, [&](const std::vector<double>& t) {
     return with_inputs(self, [&](const auto& slider, const auto& motion) {
       const py::gil_scoped_release released;
       return states_at(slider, motion, self.response, t);
     });
-  };
-  const std::vector<double> t = to_vector_or_number(times, "Response.at: times", "s");
-  const std::vector<State> found = states(t);
-  if (py::array::ensure(times).ndim() == 0) return py::cast(found.front());
-  struct Row {
-    double time, displacement, velocity, gap;
-    bool stuck;
-  };
-  py::dict layout;
-  layout["names"] = py::make_tuple("time", "displacement", "velocity", "gap", "stuck");
-  layout["formats"] = py::make_tuple("f8", "f8", "f8", "f8", "?");
-  layout["offsets"] = py::make_tuple(offsetof(Row, time), offsetof(Row, displacement), offsetof(Row, velocity),
-                                     offsetof(Row, gap), offsetof(Row, stuck));
-  layout["itemsize"] = sizeof(Row);
-  py::array rows(py::dtype::from_args(layout), static_cast<py::ssize_t>(found.size()));
-  auto* row = static_cast<Row*>(rows.mutable_data());
-  for (std::size_t i = 0; i < found.size(); ++i)
-    *row++ = {t[i], found[i].displacement, found[i].velocity, found[i].gap, found[i].mode == Mode::stuck};
-  return rows;
+  });
 }
 
 // Points of a motion that straight lines between them draw: both ends of each arc, and more within long arcs.
@@ -221,13 +176,11 @@ py::array curve_of(const ResponseWithInputs& self) {
     one->read(reader, std::max(one->end(), one->time(self.response.displacement.size() - 1)));
     return std::move(reader.points);
   });
-  py::dict layout;
-  layout["names"] =
-      py::make_tuple("time", "displacement", "velocity", "force", "normal", "gravity", "hold", "hold_backward");
-  layout["formats"] = py::make_tuple("f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8");
-  py::array rows(py::dtype::from_args(layout), static_cast<py::ssize_t>(points.size()));
-  std::copy(points.begin(), points.end(), static_cast<Point*>(rows.mutable_data()));
-  return rows;
+  return structured(
+      points.size(), [&](std::size_t i) { return points[i]; }, std::pair("time", &Point::time),
+      std::pair("displacement", &Point::displacement), std::pair("velocity", &Point::velocity),
+      std::pair("force", &Point::force), std::pair("normal", &Point::normal), std::pair("gravity", &Point::gravity),
+      std::pair("hold", &Point::hold), std::pair("hold_backward", &Point::hold_backward));
 }
 
 template <auto member>
@@ -324,13 +277,6 @@ Displacement and velocity are relative to the ground. The arrays are read-only; 
 copied.)")
       .def_property_readonly(
           "slider", [](const ResponseWithInputs& r) { return r.slider; }, "The slider.")
-      .def_property_readonly(
-          "motion", [](const ResponseWithInputs& r) { return r.motion; }, "The ground motion.")
-      .def_property_readonly("time", &time_of, R"(Times of the samples [s], shape (N,).
-
-The times of the ground motion. With `settle=True`, if the slider still moves at the last of them, samples continue with
-the last step of the motion up to the first at or after rest, so that `displacement[-1]` is `residual`; but see
-`truncated`.)")
       .def_property_readonly("displacement", history<&Response::displacement>(), "x at `time` [m], shape (N,).")
       .def_property_readonly("velocity", history<&Response::velocity>(), "x' at `time` [m/s], shape (N,).")
       .def_property_readonly("acceleration",
@@ -374,11 +320,6 @@ displacement.)")
       .def_property_readonly(
           "stuck", [](ResponseWithInputs& r) { return array_of(forces_of(r).stuck).attr("view")("?"); },
           "Whether the slider sticks at `time` (bool), shape (N,); just after the sample if that changes there.")
-      .def_property_readonly("truncated", number<&Response::truncated>(),
-                             R"(Whether the samples end before the slider comes to rest (bool).
-
-Samples end at ten times the number of samples of the ground motion. Peak, residual, events and energy still include the
-motion up to rest.)")
       .def_property_readonly("components", number<&Response::components>(),
                              R"(Components of the ground motion that acted, joined by " + " (str).
 
@@ -460,38 +401,6 @@ A structured array with the fields time [s], displacement [m], velocity [m/s], f
 normal (force), gravity (g and the upward acceleration of the ground, at least 0), and hold and hold_backward, the
 largest friction at rest against sliding forward and backward under a normal force of g; forces are per unit mass
 [m/s^2]. Where one of them jumps there are two points.)")
-      .def("at", &at_times, py::arg("times"),
-           R"(The motion at any times, also between the samples and in the time until the slider rests.
-
-Parameters
-----------
-times : float or array_like, shape (T,)
-    Times from the start of the motion to the last event of the response [s], in any order.
-
-Returns
--------
-State or ndarray
-    At one time a `State`. At several a structured array of shape (T,) with the fields time [s], displacement [m],
-    velocity [m/s], gap [m] (between slider and ground, in flight) and stuck. At an impact or a landing, the state after
-    it.
-
-Raises
-------
-ValueError
-    A time before the start or after the end.
-
-Notes
------
-As exact as `integrate`: the motion is integrated again. It takes about as long as `integrate`, and 0.1 us for each time. For laws that depend on the temperature of the surface, heat from before the
-start counts as if it were old.
-
-Examples
---------
->>> response = integrate(Coulomb(mu=0.1), GroundMotion([0.0, -2.0, 0.0], dt=1.0))
->>> response.at(0.25).stuck
-True
->>> response.at([0.75, 1.0])["velocity"]
-array([0.0625, 0.25  ]))")
       .def_property_readonly("impacts", &impacts_of,
                              R"(Impacts on stops, sorted by time: a structured array like `events`.
 
@@ -564,9 +473,25 @@ and `time`, the begin and end of the part to draw [s], such as (0, 25). Returns 
                std::to_string(r.response.events.size()) + " events" +
                (r.response.truncated ? ", samples end before rest" : "") + (remark.empty() ? "" : "; " + remark) + ">";
       });
-  define_tables<ResponseWithInputs>(
-      m, "Response",
+  define_response<ResponseWithInputs>(
+      m, "Response", &time_of, &at_times,
       {.system = "slider",
+       .object = "slider",
+       .states = R"(State or ndarray
+    At one time a `State`. At several a structured array of shape (T,) with the fields time [s], displacement [m],
+    velocity [m/s], gap [m] (between slider and ground, in flight) and stuck. At an impact or a landing, the state after
+    it.)",
+       .at_notes = R"( It takes about as long as `integrate`, and
+0.1 us for each time. For laws that depend on the temperature of the surface, heat from before the start counts as if it
+were old.
+
+Examples
+--------
+>>> response = integrate(Coulomb(mu=0.1), GroundMotion([0.0, -2.0, 0.0], dt=1.0))
+>>> response.at(0.25).stuck
+True
+>>> response.at([0.75, 1.0])["velocity"]
+array([0.0625, 0.25  ]))",
        .columns = R"(The columns are `ground_acceleration` [m/s^2], `displacement` [m], `velocity` [m/s];
     `acceleration`, `friction`, `spring`, `damper` and `force` [m/s^2]; and `stuck` (bool). Under vertical motion also
     `vertical_ground_acceleration` [m/s^2], `gap` [m] and `normal_force` [m/s^2]; on a slope also `normal_force`; and

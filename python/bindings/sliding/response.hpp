@@ -6,11 +6,14 @@
 #include <iterator>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "any_response.hpp"
 #include "bindings.hpp"
+#include "structured.hpp"
 
 namespace stickslip::python {
 
@@ -49,9 +52,6 @@ struct UnitParameter {
 /// @throws std::invalid_argument  an unknown name; begins with `who`
 UnitParameter parameter_of(const std::string& name, const std::string& who);
 
-/// Events as a structured array, that of `Response.events`.
-py::array events_array(const std::vector<Event>& events);
-
 /// Of `peak_force` and `peak_force_time` of every response.
 inline constexpr const char* peak_force_doc =
     R"(Largest |friction + damper + spring| over all time, not only at samples [m/s^2].
@@ -83,6 +83,40 @@ constexpr const char32_t* name_of(EventKind kind) {
   return U"";
 }
 
+/// Events of a slider as a structured array.
+template <class AnyEvent>
+py::array events_array(const std::vector<AnyEvent>& events) {
+  struct Row {
+    double time;
+    decltype(AnyEvent::displacement) displacement, velocity;
+    TextField<10> kind;
+  };
+  const auto row = [&](std::size_t i) -> Row {
+    const AnyEvent& e = events[i];
+    return {e.time, e.displacement, e.velocity, name_of(e.kind)};
+  };
+  return structured(events.size(), row, std::pair("time", &Row::time), std::pair("displacement", &Row::displacement),
+                    std::pair("velocity", &Row::velocity), std::pair("kind", &Row::kind));
+}
+
+/// `at` of the response of a slider.
+template <class Find>
+py::object slider_at(const char* who, const py::object& times, Find&& find) {
+  using State = typename std::invoke_result_t<Find, const std::vector<double>&>::value_type;
+  using Place = decltype(State::displacement);
+  struct Row {
+    double time;
+    Place displacement, velocity;
+    double gap;
+    bool stuck;
+  };
+  const auto row = [](double t, const State& s) {
+    return Row{t, s.displacement, s.velocity, s.gap, detail::is_stuck(s)};
+  };
+  return at(who, times, find, row, std::pair("time", &Row::time), std::pair("displacement", &Row::displacement),
+            std::pair("velocity", &Row::velocity), std::pair("gap", &Row::gap), std::pair("stuck", &Row::stuck));
+}
+
 /// The events of one kind.
 template <class AnyEvent>
 std::vector<AnyEvent> events_of_kind(const std::vector<AnyEvent>& events, EventKind kind) {
@@ -96,25 +130,6 @@ template <class AnyEvent>
 std::ptrdiff_t slips(const std::vector<AnyEvent>& events) {
   return std::ranges::count_if(
       events, [](const AnyEvent& e) { return e.kind == EventKind::breakaway || e.kind == EventKind::reversal; });
-}
-
-/// The array in `kept`, made by `make` on first access.
-template <class Make>
-py::object keep(py::object& kept, Make&& make) {
-  if (!kept) {
-    kept = make();
-    kept.attr("setflags")(py::arg("write") = false);
-  }
-  return kept;
-}
-
-/// The times of the samples of a response, those of its motion as far as it goes.
-template <Motion M>
-py::object times_of(const py::object& motion, const M& ground, std::size_t samples) {
-  if (py::len(motion.attr("time")) == samples) return motion.attr("time");
-  std::vector<double> time(samples);
-  for (std::size_t i = 0; i < samples; ++i) time[i] = ground.time(i);
-  return to_array(time);
 }
 
 /// The remark on a pendulum that leaves its linear range; empty for others.

@@ -54,7 +54,7 @@ memory of one mode: H is within 6e-7 of its largest value, for heat that lasts f
       .def_property_readonly("half_integral", &SurfaceHeat::half_integral, "H [W s^(1/2)/m^2].")
       .def("__repr__", [](const SurfaceHeat& heat) {
         return heat.half_integral() > 0
-                   ? "<SurfaceHeat: half-integral " + detail::shortest(heat.half_integral()) + " W s^(1/2)/m^2>"
+                   ? "<SurfaceHeat: half-integral " + digits(heat.half_integral()) + " W s^(1/2)/m^2>"
                    : std::string("<SurfaceHeat: cold>");
       });
 
@@ -95,13 +95,12 @@ heat : SurfaceHeat, optional
                     "Sliding distance so far [m]; updated if the law depends on it, otherwise the value given.")
       .def_readonly("heat", &State::heat, "Heat left in the sliding surface; updated if the law depends on it.")
       .def("__repr__", [](const State& state) {
-        return "<State: x " + detail::shortest(state.displacement) + " m, x' " + detail::shortest(state.velocity) +
-               " m/s, " +
-               (state.in_flight               ? "in flight, gap " + detail::shortest(state.gap) + " m"
+        return "<State: x " + digits(state.displacement) + " m, x' " + digits(state.velocity) + " m/s, " +
+               (state.in_flight               ? "in flight, gap " + digits(state.gap) + " m"
                 : state.mode == Mode::stuck   ? std::string("stuck")
                 : state.mode == Mode::forward ? std::string("sliding forward")
                                               : std::string("sliding backward")) +
-               (state.sliding_distance > 0 ? ", slid " + detail::shortest(state.sliding_distance) + " m" : "") + ">";
+               (state.sliding_distance > 0 ? ", slid " + digits(state.sliding_distance) + " m" : "") + ">";
       });
 }
 

@@ -118,12 +118,11 @@ heat : SurfaceHeat, optional
       .def_readonly("heat", &StructureState::heat,
                     "Heat left in the sliding surface; updated if the law depends on it.")
       .def("__repr__", [](const StructureState& s) {
-        return "<StructureState: x " + detail::shortest(s.displacement) + " m, x' " + detail::shortest(s.velocity) +
-               " m/s, " +
+        return "<StructureState: x " + digits(s.displacement) + " m, x' " + digits(s.velocity) + " m/s, " +
                (s.mode == Mode::stuck     ? "stuck"
                 : s.mode == Mode::forward ? "sliding forward"
                                           : "sliding backward") +
-               (s.sliding_distance > 0 ? ", slid " + detail::shortest(s.sliding_distance) + " m" : "") + ">";
+               (s.sliding_distance > 0 ? ", slid " + digits(s.sliding_distance) + " m" : "") + ">";
       });
 
   const auto bind = [&](auto* type, const char* doc) {

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "any_response.hpp"
 #include "in_python.hpp"
 #include "sliding/response.hpp"
 #include "sliding/units_remark.hpp"
@@ -20,6 +21,7 @@
 #include "stickslip/structure/isolated_structure.hpp"
 #include "structure/from_inputs.hpp"
 #include "structure/structure.hpp"
+#include "structured.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -271,19 +273,6 @@ Two responses are equal if they have equal inputs; a pickled one is integrated a
       })
       .def_property_readonly(
           "system", [](const Self& r) { return r.system; }, "What was integrated, such as an `IsolatedStructure`.")
-      .def_property_readonly(
-          "motion", [](const Self& r) { return r.motion; }, "The ground motion.")
-      .def_property_readonly(
-          "time",
-          [](Self& r) {
-            return keep(r.time, [&] {
-              return times_of(r.motion, r.motion.cast<const GroundMotion&>(), r.response.displacement.size());
-            });
-          },
-          R"(Times of the samples [s], shape (N,).
-
-The times of the ground motion; with `settle=True` they continue with its last step until the interface is known to stick
-for good, but see `truncated`.)")
       .def_property_readonly("displacement", history<&StructureResponse::displacement>(),
                              "x at `time` [m], shape (N,).")
       .def_property_readonly("velocity", history<&StructureResponse::velocity>(), "x' at `time` [m/s], shape (N,).")
@@ -319,30 +308,6 @@ unfinished slip.)")
 As `Response.effective_damping`: E_d is 4 D times the energy per meter that friction and damper of the interface
 dissipated in the swing up to the peak; what the structure dissipates is not in it. ValueError as for
 `effective_period`.)")
-      .def("at", &at_times, py::arg("times"),
-           R"(The motion at any times, also between the samples and while the structure settles.
-
-Parameters
-----------
-times : float or array_like, shape (T,)
-    Times from the start of the motion to the last event of the response [s], in any order.
-
-Returns
--------
-StructureState or ndarray
-    At one time a `StructureState`, from which `advance` continues. At several a structured array of shape (T,) with the
-    fields time [s], displacement [m] and velocity [m/s] of the interface, stuck, and, if the structure has floors,
-    floor_displacement [m] of shape (T, floors), relative to the base, or to the ground below an `EquipmentOnFloor`. At
-    an impact, the state after it.
-
-Raises
-------
-ValueError
-    A time before the start or after the end.
-
-Notes
------
-As exact as `integrate`: the motion is integrated again, with a step that ends at each time.)")
       .def_property_readonly(
           "floors",
           [](const py::object& self) {
@@ -381,8 +346,6 @@ None unless the friction law depends on it.)")
                              R"(Whether it is certain that the interface will not slide again (bool).
 
 With `settle=True` always: the amplitudes of all modes, which only shrink, together cannot exceed the friction.)")
-      .def_property_readonly("truncated", number<&StructureResponse::truncated>(),
-                             "Whether the samples end, at ten times those of the motion, before the interface settles.")
       .def_property_readonly("sliding_distance", number<&StructureResponse::sliding_distance>(),
                              "Total sliding distance (path length) [m].")
       .def_property_readonly(
@@ -433,12 +396,9 @@ Needs matplotlib (`pip install stickslip[plot]`). Takes `figure`, a matplotlib F
                 with_system(self, [&](const SlidingStructure& system, const GroundMotion& motion) {
                   return interface_loops(system, motion, self.response);
                 });
-            py::dict layout;
-            layout["names"] = py::make_tuple("time", "displacement", "force");
-            layout["formats"] = py::make_tuple("f8", "f8", "f8");
-            py::array rows(py::dtype::from_args(layout), static_cast<py::ssize_t>(points.size()));
-            std::ranges::copy(points, static_cast<InterfacePoint*>(rows.mutable_data()));
-            return rows;
+            return structured(
+                points.size(), [&](std::size_t i) { return points[i]; }, std::pair("time", &InterfacePoint::time),
+                std::pair("displacement", &InterfacePoint::displacement), std::pair("force", &InterfacePoint::force));
           },
           R"(Points that draw the loops of `force` with straight lines between them, for `stickslip.plotting`.
 
@@ -449,9 +409,16 @@ A structured array with the fields time [s], displacement [m] and force [m/s^2];
                " m, " + std::to_string(r.response.events.size()) + " events" + (remark.empty() ? "" : "; " + remark) +
                ">";
       });
-  define_tables<Self>(
-      m, "StructureResponse",
+  define_response<Self>(
+      m, "StructureResponse", times_over<Self>(&StructureResponse::displacement), &at_times,
       {.system = "system",
+       .object = "interface",
+       .rests = "is known to stick for good",
+       .states = R"(StructureState or ndarray
+    At one time a `StructureState`, from which `advance` continues. At several a structured array of shape (T,) with the
+    fields time [s], displacement [m] and velocity [m/s] of the interface, stuck, and, if the structure has floors,
+    floor_displacement [m] of shape (T, floors), relative to the base, or to the ground below an `EquipmentOnFloor`. At
+    an impact, the state after it.)",
        .columns = R"(The columns are `ground_acceleration` [m/s^2], `displacement` [m], `velocity` [m/s],
     `base_acceleration`, `demand` and `force` [m/s^2], `temperature` [degC] if the law depends on it, and for each floor
     `floor_1_displacement` [m], `floor_1_acceleration` [m/s^2] and so on.)",

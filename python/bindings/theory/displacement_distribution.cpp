@@ -136,10 +136,10 @@ Raises
 ValueError
     A value that is not finite.)")
       .def("__repr__", [](const DisplacementDistribution& d) {
-        const std::string of = d.error() > 0 ? "error of probabilities " + detail::shortest(d.error())
-                                             : detail::shortest(d.slips()) + " slips expected";
-        return "<DisplacementDistribution: " + of + ", atom " + detail::shortest(d.atom()) + ", std " +
-               detail::shortest(std::sqrt(d.variance())) + " m>";
+        const std::string of =
+            d.error() > 0 ? "error of probabilities " + digits(d.error()) : digits(d.slips()) + " slips expected";
+        return "<DisplacementDistribution: " + of + ", atom " + digits(d.atom()) + ", std " +
+               digits(std::sqrt(d.variance())) + " m>";
       });
 }
 

@@ -298,8 +298,8 @@ ValueError
       .def_readonly("with_intercept", &TransitionTime::with_intercept,
                     "With the delay 47 pi^2 / 48 S0 / a^2 of q11 behind (3.47), which (3.51) drops [s].")
       .def("__repr__", [](const TransitionTime& t) {
-        return "<TransitionTime: " + detail::shortest(t.thesis) + " s by (3.51), " +
-               detail::shortest(t.with_intercept) + " s with the intercept; simulated casters break loose earlier>";
+        return "<TransitionTime: " + digits(t.thesis) + " s by (3.51), " + digits(t.with_intercept) +
+               " s with the intercept; simulated casters break loose earlier>";
       });
   m.def("transition_time", &transition, py::arg("slider"), py::arg("s0"),
         R"(Estimate when a caster under white noise breaks loose, by equivalent linearization, thesis (3.51).

@@ -49,8 +49,8 @@ Arrays have shape (T,) and are read-only.)")
       .def_readonly("velocity_square", &PulseResponse::velocity_square,
                     "Integral of x'^2 over all time [m^2/s], thesis (5.32).")
       .def("__repr__", [](const PulseResponse& r) {
-        return "<PulseResponse: offset " + detail::shortest(r.offset) + " m, peak " + detail::shortest(r.peak) +
-               " m, stop " + detail::shortest(r.stop) + " s>";
+        return "<PulseResponse: offset " + digits(r.offset) + " m, peak " + digits(r.peak) + " m, stop " +
+               digits(r.stop) + " s>";
       });
 
   m.def("pulse_response", &respond, py::arg("slider"), py::arg("b"), py::arg("dt"), py::kw_only(),

@@ -119,8 +119,8 @@ Returns
 float or ndarray
     [m^2/s^3], of the shape of omega.)")
       .def("__repr__", [](const ShapingFilter& self) {
-        return "<ShapingFilter: order " + std::to_string(self.order()) + ", s0 = " + detail::shortest(self.s0()) +
-               " m^2/s^3, misfit " + detail::shortest(self.misfit()) + ">";
+        return "<ShapingFilter: order " + std::to_string(self.order()) + ", s0 = " + digits(self.s0()) +
+               " m^2/s^3, misfit " + digits(self.misfit()) + ">";
       });
 }
 

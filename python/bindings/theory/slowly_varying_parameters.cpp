@@ -64,8 +64,8 @@ void bind_slowly_varying_parameters(py::module_& m) {
       .def_readonly("phase", &HarmonicSolution::phase, "phi [rad], from -pi to pi; nan if the amplitude is 0.")
       .def_readonly("stable", &HarmonicSolution::stable, "Whether the solution is stable under small perturbations.")
       .def("__repr__", [](const HarmonicSolution& s) {
-        return "<HarmonicSolution: amplitude " + detail::shortest(s.amplitude) + " m, phase " +
-               detail::shortest(s.phase) + " rad, " + (s.stable ? "stable" : "unstable") + ">";
+        return "<HarmonicSolution: amplitude " + digits(s.amplitude) + " m, phase " + digits(s.phase) + " rad, " +
+               (s.stable ? "stable" : "unstable") + ">";
       });
 
   auto type =

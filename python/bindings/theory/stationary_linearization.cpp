@@ -97,9 +97,8 @@ Notes
 The relative error is at most 1e-8. Takes some 0.3 to 2 ms for each time, however late. Releases the interpreter
 lock.)")
       .def("__repr__", [](const StationaryPrediction& p) {
-        const auto number = [](double value) { return std::isinf(value) ? "inf" : detail::shortest(value); };
-        return "<StationaryPrediction: damping " + number(p.damping) + " 1/s, velocity_std " + number(p.velocity_std) +
-               " m/s, displacement_std " + number(p.displacement_std) + " m" +
+        return "<StationaryPrediction: damping " + digits(p.damping) + " 1/s, velocity_std " + digits(p.velocity_std) +
+               " m/s, displacement_std " + digits(p.displacement_std) + " m" +
                (p.remark.empty() ? "" : "; " + p.remark) + ">";
       });
 

@@ -228,9 +228,8 @@ Raises
 ------
 ValueError
     A value out of range.)")
-      .def("__repr__", [](const VelocityDistribution& d) {
-        return "<VelocityDistribution: rest " + detail::shortest(d.atom()) + ">";
-      });
+      .def("__repr__",
+           [](const VelocityDistribution& d) { return "<VelocityDistribution: rest " + digits(d.atom()) + ">"; });
 
   value_class<TransportCost>(m, "TransportCost", R"(The work of a prediction by `Transport`.)")
       .def_readonly("nodes", &TransportCost::nodes, "Nodes of the finest grid.")
@@ -238,7 +237,7 @@ ValueError
       .def_readonly("seconds", &TransportCost::seconds, "Time of all grids [s].")
       .def("__repr__", [](const TransportCost& cost) {
         return "<TransportCost: " + std::to_string(cost.nodes) + " nodes, " + std::to_string(cost.steps) + " steps, " +
-               detail::shortest(cost.seconds) + " s>";
+               digits(cost.seconds) + " s>";
       });
 
   value_class<TransportStationary>(m, "TransportStationary", R"(The stationary motion, by `Transport`.
@@ -256,10 +255,10 @@ Each value is an `Estimate`, whose `error` is numerical: what steps and grids co
                     "Fraction of time at rest; 0 under continuous white noise. Filtered noise crosses a level "
                     "infinitely often, so that it converges with the root of the step: its error is some percent.")
       .def("__repr__", [](const TransportStationary& s) {
-        return "<TransportStationary: variance of x' " + detail::shortest(s.velocity_variance.value) + " m^2/s^2, " +
+        return "<TransportStationary: variance of x' " + digits(s.velocity_variance.value) + " m^2/s^2, " +
                (std::isfinite(s.displacement_variance.value)
-                    ? "of x " + detail::shortest(s.displacement_variance.value) + " m^2>"
-                    : "growth rate " + detail::shortest(s.growth_rate.value) + " m^2/s>");
+                    ? "of x " + digits(s.displacement_variance.value) + " m^2>"
+                    : "growth rate " + digits(s.growth_rate.value) + " m^2/s>");
       });
 
   value_class<TransportPeak>(m, "TransportPeak", R"(The largest abs(x) from rest up to a time, by `Transport`.
@@ -311,8 +310,7 @@ ConvergenceError
 Notes
 -----
 Takes 3 to 30 s: one `exceedance`, at a level found with a coarse grid.)")
-      .def("__repr__",
-           [](const TransportPeak& p) { return "<TransportPeak up to " + detail::shortest(p.time) + " s>"; });
+      .def("__repr__", [](const TransportPeak& p) { return "<TransportPeak up to " + digits(p.time) + " s>"; });
 
   value_class<TransportPrediction, Moments>(m, "TransportPrediction", R"(Moments by time, by `Transport`.
 

@@ -9,6 +9,7 @@ from .casters import swivels
 __all__ = ["describe"]
 
 _CENTER = "of the center of mass relative to the ground"
+_ACCELERATION = "absolute acceleration of the center of mass"
 _HISTORIES = (
     History("ground_acceleration_axis", "m/s^2", "ground acceleration, axis component"),
     History("ground_acceleration_transverse", "m/s^2", "ground acceleration, transverse component"),
@@ -17,6 +18,8 @@ _HISTORIES = (
     History("displacement_transverse", "m", f"displacement {_CENTER}, transverse component"),
     History("velocity_axis", "m/s", f"velocity {_CENTER}, axis component"),
     History("velocity_transverse", "m/s", f"velocity {_CENTER}, transverse component"),
+    History("acceleration_axis", "m/s^2", f"{_ACCELERATION}, axis component"),
+    History("acceleration_transverse", "m/s^2", f"{_ACCELERATION}, transverse component"),
     History("yaw", "rad", "yaw, positive from the axis toward the transverse direction"),
     History("yaw_rate", "rad/s", "rate of the yaw"),
 )

@@ -10,7 +10,13 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._core import GroundMotion, PlanarResponse, _PlanarFloorMotion, response_spectrum
+from .._core import (
+    CartResponse,
+    GroundMotion,
+    PlanarResponse,
+    _PlanarFloorMotion,
+    response_spectrum,
+)
 from .._tabular import Tabular
 from .tables import SPECTRUM_UNITS
 
@@ -73,7 +79,7 @@ class RotD(Tabular):
 
 
 def rotd(
-    station: GroundMotion | PlanarResponse,
+    station: GroundMotion | PlanarResponse | CartResponse,
     periods: ArrayLike = 0.0,
     damping: float = 0.05,
     *,
@@ -88,9 +94,10 @@ def rotd(
 
     Parameters
     ----------
-    station : GroundMotion or PlanarResponse
+    station : GroundMotion, PlanarResponse or CartResponse
         A ground motion with a `transverse` component, as `read_station` returns it. A response in
-        the plane gives floor spectra: those of the sliding mass, from its absolute acceleration.
+        the plane gives floor spectra: those of the sliding mass, from its absolute acceleration. So
+        does that of a cart, of its center of mass.
     periods : float or array_like, shape (P,)
         Undamped natural periods [s], as for `response_spectrum`. The default, 0, gives the peak
         ground acceleration.
@@ -132,7 +139,7 @@ def rotd(
     """
     if np.ndim(damping):
         raise ValueError("rotd: damping must be one number, got several")
-    if isinstance(station, PlanarResponse):
+    if isinstance(station, (PlanarResponse, CartResponse)):
         floor = _PlanarFloorMotion(station)
 
         def at(angle: int) -> Any:
@@ -140,7 +147,7 @@ def rotd(
 
     elif not isinstance(station, GroundMotion):
         raise TypeError(
-            "rotd: station must be a GroundMotion or a PlanarResponse, got"
+            "rotd: station must be a GroundMotion, a PlanarResponse or a CartResponse, got"
             f" {type(station).__name__}"
         )
     elif station.transverse is None:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal, SupportsIndex, overload
 
 from .. import _core
 from .._core import (
+    CartResponse,
     EquipmentOnFloor,
     FlexibleSlope,
     GroundMotion,
@@ -34,7 +35,7 @@ _Kind = Literal[
 
 @overload
 def response_spectrum(
-    motion: GroundMotion | Response | PlanarResponse | StructureResponse,
+    motion: GroundMotion | Response | PlanarResponse | StructureResponse | CartResponse,
     periods: ArrayLike,
     damping: ArrayLike = 0.05,
     *,
@@ -51,7 +52,7 @@ def response_spectrum(
     kind: _Kind = "pseudo_acceleration",
 ) -> SuiteSpectra: ...
 def response_spectrum(
-    motion: GroundMotion | Response | PlanarResponse | StructureResponse | Suite,
+    motion: GroundMotion | Response | PlanarResponse | StructureResponse | CartResponse | Suite,
     periods: ArrayLike,
     damping: ArrayLike = 0.05,
     *,
@@ -69,14 +70,15 @@ def response_spectrum(
 
     Parameters
     ----------
-    motion : GroundMotion, Response, PlanarResponse, StructureResponse or Suite
+    motion : GroundMotion, Response, PlanarResponse, StructureResponse, CartResponse or Suite
         A suite gives the spectra of all its ground motions, as `SuiteSpectra`. A response excites
         the oscillators with the absolute acceleration of the sliding mass along x, including its
         jumps where a slip begins, reverses or stops. An impact on a stop, and the friction impulse
         of a landing, change the velocity of the mass at once: each oscillator gets that jump as an
-        impulse. Settle the response, otherwise the floor motion ends with the record. `rotd` gives
-        the spectra of a station, or of a response in the plane, in all directions. The response of
-        a structure gives those of its floors, see `floor`.
+        impulse. That of a cart is of its center of mass. Settle the response, otherwise the floor
+        motion ends with the record. `rotd` gives the spectra of a station, of a response in the
+        plane or of a cart in all directions. The response of a structure gives those of its floors,
+        see `floor`.
     periods : float or array_like, shape (P,)
         Undamped natural periods T [s], in any order: each from 1e-6 to 1e6, or 0, a rigid
         oscillator, which gives the PGA as acceleration and 0 otherwise.
@@ -89,7 +91,7 @@ def response_spectrum(
     direction : float, optional
         Horizontal direction of the oscillators, clockwise from the axis of the motion [degrees]: 90
         is the transverse component. Other values than 0 need a ground motion with a transverse
-        component, or a response in the plane.
+        component, or a response in the plane or of a cart.
     floor : int, optional
         Floor of a `StructureResponse` on which the oscillators stand, counted from 1, the lowest; 0
         is what the structure stands on. Default: the sliding mass, which is the base of an
