@@ -68,7 +68,8 @@ class CartHold {
       for (std::size_t j = i + 1; j < known_.size(); ++j) {
         const Vector2& c = known_[j];
         const double area = std::abs(stickslip::cross(b, c)), other = c.axis * load[1] - c.transverse * load[0];
-        if (std::abs(beside) + std::abs(other) <= weight * area) return true;
+        // Between two loads along one line there is nothing.
+        if (area > 1e-6 * norm(b) * norm(c) && std::abs(beside) + std::abs(other) <= weight * area) return true;
       }
     }
     return false;

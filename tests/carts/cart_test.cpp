@@ -597,3 +597,50 @@ TEST_CASE("A cart with a locked caster comes to rest without ground motion", "[c
     CHECK(norm(state.displacement) < 1);
   }
 }
+
+TEST_CASE("A cart on feet under a load along one line moves as a slider", "[carts]") {
+  std::mt19937_64 bits(5);
+  std::uniform_real_distribution<double> u(0, 1);
+  for (int n = 0; n < 100; ++n) {
+    CAPTURE(n);
+    const double mu = 0.02 + 0.6 * u(bits), direction = n % 2 == 0 ? 0 : 2 * pi * u(bits);
+    std::vector<double> along, x, y;
+    for (int i = 0; i < 200; ++i) along.push_back(8 * u(bits) * u(bits) * std::sin(0.7 * i));
+    for (const double a : along) x.push_back(a * std::cos(direction)), y.push_back(a * std::sin(direction));
+    const CartResponse r = integrate(four_feet({mu, mu, mu, mu}),
+                                     GroundMotion(std::move(x), 0.05).with_components(std::move(y)), pushed({}, 0));
+    const Response expected =
+        integrate(Slider(Coulomb(mu * g)), GroundMotion(std::move(along), 0.05), {.settle = true});
+    CHECK(std::abs(r.peak - expected.peak) < 1e-8 + 1e-6 * expected.peak);
+  }
+}
+
+TEST_CASE("A cart on feet breaks away under the load that it holds, however slowly it grows", "[carts]") {
+  const Cart cart({Foot{{0.34, -0.18}, 0.2}, Foot{{0.35, 0.19}, 0.2}, Foot{{-0.13, 0.3}, 0.5}, Foot{{-0.4, 0}, 0.5},
+                   Foot{{-0.11, -0.29}, 0.1}},
+                  0.485);
+  const double holds = cart.holds(Vector2{0.6, 0.8}), dt = 1e-3;
+  for (const double rate : {0.05, 1.0, 5.0}) {
+    CAPTURE(rate);
+    std::vector<double> x, y;
+    for (double load = 0; load < 1.1 * holds; load += rate * dt) x.push_back(-0.6 * load), y.push_back(-0.8 * load);
+    const GroundMotion motion = GroundMotion(std::move(x), dt).with_components(std::move(y));
+    CHECK(integrate(cart, motion).events.front().time * rate == Approx(holds).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("States do not depend on which others are asked", "[carts]") {
+  const Cart cart(
+      {Foot{{0.3412994345289621, -0.1759825749076364}, 0.2}, Foot{{0.3533372181831855, 0.1890622997608256}, 0.2},
+       Foot{{-0.127369924929353, 0.2956703564875106}, 0.5}, Foot{{-0.39967715009291227, -0.0004486994343815399}, 0.5},
+       Foot{{-0.1138646081618272, -0.29099179951024357}, 0.1}},
+      0.4851479329248457);
+  const GroundMotion motion = GroundMotion({-1, -1, -4, -5, -2}, 0.1).with_components({-1, -1, -4, 1, 4});
+  const CartResponse r = integrate(cart, motion);
+  std::vector<double> times{r.events.front().time};
+  for (int i = 0; i <= 3000; ++i) times.push_back(0.4 * i / 3000);
+  const std::vector<CartState> states = states_at(cart, motion, r, times);
+  for (std::size_t i = 0; i < r.velocity.size(); ++i) CHECK(norm(states[1 + 750 * i].velocity - r.velocity[i]) < 1e-8);
+  const std::vector<double> late{motion.time(4), 0.41};
+  CHECK_THROWS_WITH(states_at(cart, motion, r, late), ContainsSubstring("the end of the response"));
+}
