@@ -100,7 +100,7 @@ after them.)")
 Parameters
 ----------
 times : float or array_like, shape (T,)
-    Times from the start of the motion to the last event of the response [s], in any order.
+    Times from the start of the motion to the last event or sample of the response [s], in any order.
 
 Returns
 -------

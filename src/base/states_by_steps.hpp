@@ -12,14 +12,15 @@
 namespace stickslip::detail {
 
 /// The states at any times of a motion that is made of single steps, whose parts can be stepped, too.
-/// @param state  at the start
-/// @param end    of the response [s], when it has the state `last`
-/// @param step   `step(state, duration, i, from, to)`: through segment i of the motion, from a part of it to another;
-///               without ground motion if there is no such segment
+/// @param state    at the start
+/// @param samples  of the response
+/// @param end      of the response [s], when it has the state `last`
+/// @param step     `step(state, duration, i, from, to)`: through segment i of the motion, from a part of it to another;
+///                 without ground motion if there is no such segment
 template <class State, class Step>
-std::vector<State> states_by_steps(const GroundMotion& motion, std::span<const double> times, State state, double end,
-                                   const State& last, Step&& step) {
-  const std::vector<std::size_t> order = order_of(times, motion.time(0), end);
+std::vector<State> states_by_steps(const GroundMotion& motion, std::span<const double> times, State state,
+                                   std::size_t samples, double end, const State& last, Step&& step) {
+  const std::vector<std::size_t> order = order_of(times, motion.time(0), end, motion.time(samples - 1));
   std::vector<State> states(times.size(), last);
   std::size_t next = 0;
   const auto through = [&](std::size_t i, double begin, double until) {

@@ -259,8 +259,8 @@ std::vector<CartState> states_at(const Cart& cart, const GroundMotion& motion, c
     }
     detail::move(work, part, state, none);
   };
-  return detail::states_by_steps(motion, times, detail::start_of(model, response), response.events.back().time,
-                                 response.state, step);
+  return detail::states_by_steps(motion, times, detail::start_of(model, response), response.displacement.size(),
+                                 response.events.back().time, response.state, step);
 }
 
 }  // namespace stickslip

@@ -99,7 +99,7 @@ std::vector<RockingState> states_by_advance(const Block& block, const GroundMoti
     advance(block, ground, state);
   };
   return states_by_steps(motion, times, RockingState::at(response.rotation.front(), response.rate.front()),
-                         response.events.back().time, response.state, step);
+                         response.rotation.size(), response.events.back().time, response.state, step);
 }
 
 /// Adds a rotation to the peaks.

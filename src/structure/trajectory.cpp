@@ -131,7 +131,9 @@ class Swing final : public StructureReader {
 
 std::vector<StructureState> states_at(const SlidingStructure& system, const GroundMotion& motion,
                                       const StructureResponse& response, std::span<const double> times) {
-  StatesAt reader(system, times, detail::order_of(times, motion.time(0), response.events.back().time));
+  StatesAt reader(system, times,
+                  detail::order_of(times, motion.time(0), response.events.back().time,
+                                   motion.time(response.displacement.size() - 1)));
   if (!times.empty()) read(system, motion, response, reader);
   reader.finish(response.final_state);
   return std::move(reader.states);

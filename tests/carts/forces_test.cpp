@@ -161,3 +161,53 @@ TEST_CASE("Floor motions of carts refuse what has none", "[carts][forces]") {
   r.truncated = true;
   CHECK_THROWS_WITH(floor_motion(cart, motion, r), ContainsSubstring("truncated"));
 }
+
+TEST_CASE("A step that ends where a wheel sticks shows no force beyond it", "[carts][forces]") {
+  const GroundMotion motion = GroundMotion({-0.14013136992241282, -0.49152668715506564, 0.08260536086704671},
+                                           {0.12232587576201269, 0.15520732487292574, 0.33033574341965166})
+                                  .with_components({-0.0852877211421451, -0.5322927213156374, 0.5117371654728808},
+                                                   {-1.167855950788736, 1.0574554234645541, -1.8596205959550685});
+  const Cart cart({Foot{{0.3798336092307709, -0.25690854784278816}, 0.1},
+                   SwivelCaster::with_locked_wheel({-0.3798336092307709, 0.25690854784278816}, 0, 0.5, 0.03)},
+                  0.2687780375356007);
+  const CartForces felt = forces(cart, motion, integrate(cart, motion));
+  CHECK(felt.peak == Approx(0.7194).margin(1e-3));  // from differences of the velocity
+}
+
+TEST_CASE("The peak of a truncated response is that of the whole motion", "[carts][forces]") {
+  const auto caster = [](Vector2 at, double heading) {
+    return SwivelCaster::from_geometry(at, heading, 0.3, 0.03, 0.02, 0.005);
+  };
+  const Cart cart({caster({-0.38, -0.32}, -0.5), caster({0.38, 0.32}, -2.7)}, 0.11);
+  const GroundMotion motion = GroundMotion({-3.5, 4.2, -3.2, 8.4}, 0.1).with_components({-2.5, 7.5, 2.5, 4.5});
+  const CartResponse r = integrate(cart, motion, settling());
+  REQUIRE(r.truncated);
+  const CartForces felt = forces(cart, motion, r);
+  CHECK(felt.acceleration.size() == r.displacement.size());
+  constexpr double h = 1e-5;
+  const std::vector<double> around{felt.peak_time - h, felt.peak_time, felt.peak_time + h};
+  const std::vector<CartState> at = states_at(cart, motion, r, around);
+  const double before = norm(at[1].velocity - at[0].velocity) / h, after = norm(at[2].velocity - at[1].velocity) / h;
+  CHECK(felt.peak == Approx(std::max(before, after)).epsilon(1e-3));
+  CHECK(felt.peak > 0.47);  // some 0.46 up to the last sample
+  CHECK(felt.peak_time > motion.time(r.displacement.size() - 1));
+  CHECK(felt.peak_time <= r.events.back().time);
+}
+
+TEST_CASE("The time of the peak is within the response, and infinite forces are refused", "[carts][forces]") {
+  const Cart wheels({FixedWheel{{0.3, 0}, 0, 0.5, 0.4}, FixedWheel{{-0.3, 0}, 0, 0.5, 0.4}}, 0.3);
+  CartOptions fast;
+  fast.velocity = {50, 0};
+  for (const double dt : {0.1, 0.01, 0.02, 0.3})
+    for (std::size_t samples = 2; samples < 20; ++samples) {
+      std::vector<double> up;
+      for (std::size_t i = 0; i < samples; ++i) up.push_back(static_cast<double>(i));
+      const GroundMotion motion =
+          GroundMotion(std::vector<double>(samples), dt).with_components(std::vector<double>(samples), std::move(up));
+      const CartResponse r = integrate(wheels, motion, fast);
+      CHECK(forces(wheels, motion, r).peak_time <= r.events.back().time);
+    }
+  const GroundMotion instant = GroundMotion({0, 1e3, 0}, 1e-300).with_components({0, 1e3, 0});
+  const Cart free({FixedWheel{{0.3, 0}, 0.3, 0.1, 0.01}, FixedWheel{{-0.3, 0}, -0.2, 0.1, 0.01}}, 0.3);
+  CHECK_THROWS_WITH(forces(free, instant, integrate(free, instant)), ContainsSubstring("range of doubles"));
+}

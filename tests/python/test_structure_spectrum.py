@@ -138,3 +138,19 @@ def test_what_has_no_spectrum():
     light = ss.integrate(ss.EquipmentOnFloor(stops, BUILDING, floor=3), QUAKE, settle=True)
     assert len(light.impacts)
     assert (values(light) > values(light, 3)).any()
+
+
+def test_what_stands_on_the_ground_has_its_spectrum_under_held_values_and_jumps_too():
+    held = {"interpolation": "constant"}
+    jumps = ss.GroundMotion([0, 3.0, -3.0, 2.0, 0, 0], times=[0, 0.2, 0.2, 0.4, 0.4, 0.6], **held)
+    even = ss.GroundMotion([0, 3.0, -3.0, 2.0, 0, 1.0, -1.0, 0], dt=0.2, name="even", **held)
+    for motion in (even, jumps):
+        r = ss.integrate(ss.EquipmentOnFloor(SLIDES, BUILDING, floor=2), motion)
+        base = ss.response_spectrum(r, PERIODS, floor=0)
+        assert np.array_equal(base.values, ss.response_spectrum(motion, PERIODS).values)
+        assert base.name == ("base, even" if motion is even else "base")
+        if motion is jumps:
+            with pytest.raises(ValueError, match="two samples of equal time"):
+                ss.response_spectrum(r, PERIODS, floor=1)
+    with pytest.raises(TypeError, match="response_spectrum: floor must be"):
+        ss.response_spectrum(r, PERIODS, floor=1.5)

@@ -26,7 +26,7 @@ struct CartForces {
 ///
 /// @param response  the result of `integrate` for cart and motion
 /// @return as many values as the response has samples
-/// As exact as `integrate`; while a foot begins to slide, to 1e-4. Cost: about that of `integrate`.
+/// As exact as `integrate`; while a foot begins to slide, to 1e-3. Cost: about that of `integrate`.
 CartForces forces(const Cart& cart, const GroundMotion& motion, const CartResponse& response);
 
 /// The absolute acceleration of the center of mass of a cart, for equipment on it; its spectra are floor spectra.

@@ -121,7 +121,7 @@ inline void trace(const PlanarEngine& engine, const GroundMotion& motion, const 
 inline std::vector<PlanarState> states_at(const PlanarEngine& engine, const GroundMotion& motion,
                                           const PlanarResponse& response, std::span<const double> times) {
   const double begin = motion.time(0), end = response.events.back().time;
-  const std::vector<std::size_t> order = order_of(times, begin, end);
+  const std::vector<std::size_t> order = order_of(times, begin, end, motion.time(response.displacement.size() - 1));
   const double slope = engine.mounting().slope();
   const PlanarPieces pieces(motion, slope);
   std::vector<PlanarState> states(times.size());
@@ -145,7 +145,7 @@ inline std::vector<PlanarState> states_at(const PlanarEngine& engine, const Grou
 /// @param slider    the slider
 /// @param motion    its ground motion
 /// @param response  the result of `integrate` for them
-/// @param times     in any order, from the start of the motion to the end of the response (its last event) [s]
+/// @param times     in any order, from the start of the motion to the last event or sample of the response [s]
 /// @return a state for each time, in their order; at an impact or a landing, that after it
 /// @throws std::invalid_argument  a time before the start or after the end
 /// As exact as `integrate`: the motion is integrated again, and ends a step at each time. Cost: about that of

@@ -67,7 +67,7 @@ void advance(const RockingBlock& block, const RockingGround& segment, RockingSta
 /// The states of a block at any times of a response, also between its samples and while it settles.
 ///
 /// @param response  the result of `integrate` for block and motion
-/// @param times     in any order, from the start of the motion to the end of the response (its last event) [s]
+/// @param times     in any order, from the start of the motion to the last event or sample of the response [s]
 /// @return a state for each time, in their order; at an event, that after it
 /// @throws std::invalid_argument  a time before the start or after the end
 /// As exact as `integrate`. Cost: a step for each segment and each time.

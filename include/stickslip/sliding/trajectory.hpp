@@ -471,12 +471,13 @@ class StatesAt final : public TrajectoryReader {
 /// The states of a slider at any times of a response, also between its samples and after the last sample.
 ///
 /// @param trajectory  of the response
-/// @param times       in any order, from the start of the motion to the end of the response (its last event) [s]
+/// @param times       in any order, from the start of the motion to the last event or sample of the response [s]
 /// @return a state for each time, in their order; at an event, that after it
 /// @throws std::invalid_argument  a time before the start or after the end
 /// As exact as `integrate`. Cost: about that of `integrate`, and 0.1 us for each time.
 inline std::vector<State> states_at(const Trajectory& trajectory, std::span<const double> times) {
-  const std::vector<std::size_t> order = detail::order_of(times, trajectory.begin(), trajectory.end());
+  const double last_sample = trajectory.time(trajectory.response().displacement.size() - 1);
+  const std::vector<std::size_t> order = detail::order_of(times, trajectory.begin(), trajectory.end(), last_sample);
   if (times.empty()) return {};
   detail::StatesAt reader(times, order);
   trajectory.read(reader, std::min(std::nextafter(times[order.back()], never), trajectory.end()));

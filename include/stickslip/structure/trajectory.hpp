@@ -17,7 +17,7 @@ namespace stickslip {
 /// @param system    the structure
 /// @param motion    its ground motion
 /// @param response  the result of `integrate` for them
-/// @param times     in any order, from the start of the motion to the end of the response (its last event) [s]
+/// @param times     in any order, from the start of the motion to the last event or sample of the response [s]
 /// @return a state for each time, in their order; at an event, that after it
 /// @throws std::invalid_argument  a time before the start or after the end
 /// As exact as `integrate`. Cost: about that of `integrate`, and a step for each time.

@@ -253,7 +253,7 @@ Displacements are relative to the ground, along its axis and along its transvers
 
 The force of all supports per unit mass, r'' + n; that of the ground while the cart rests. At a sample where it jumps the
 value just after it; at the end of the ground motion and of the response that before. As exact as `integrate`; while a
-foot begins to slide, to 1e-4. On first access the motion is integrated once more.)")
+foot begins to slide, to 1e-3. On first access the motion is integrated once more.)")
       .def_property_readonly(
           "peak_force", [](Self& r) { return forces_of(r).peak; },
           R"(Largest magnitude of the force of all supports per unit mass [m/s^2].

@@ -17,6 +17,7 @@ from .._core import (
     _PlanarFloorMotion,
     response_spectrum,
 )
+from .._numbers import real
 from .._tabular import Tabular
 from .tables import SPECTRUM_UNITS
 
@@ -138,7 +139,9 @@ def rotd(
     5.0
     """
     if np.ndim(damping):
-        raise ValueError("rotd: damping must be one number, got several")
+        got = "several" if np.size(damping) else "none"
+        raise ValueError(f"rotd: damping must be one number, got {got}")
+    damping = real(damping, "rotd: damping")
     if isinstance(station, (PlanarResponse, CartResponse)):
         floor = _PlanarFloorMotion(station)
 

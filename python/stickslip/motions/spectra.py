@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import operator
 from typing import TYPE_CHECKING, Any, Literal, SupportsIndex, overload
 
 from .. import _core
@@ -19,6 +18,8 @@ from .._core import (
     integrate,
 )
 from .._core import _ground_motion as ground_motion
+from .._numbers import whole_number
+from .records import changed
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -178,7 +179,10 @@ def response_spectrum(
                 "response_spectrum: direction needs a ground motion or a response with two"
                 " horizontal components"
             )
-        felt = _sliding_mass(motion) if floor is None else _floor(motion, operator.index(floor))
+        if floor is None:
+            felt = _sliding_mass(motion)
+        else:
+            felt = _floor(motion, whole_number(floor, "response_spectrum: floor", least=0))
         found = spectrum(felt, periods, damping, kind=kind)
     elif floor is not None:
         raise ValueError(
@@ -217,11 +221,17 @@ def _floor(response: StructureResponse, floor: int, *, vertical: bool = False) -
             "response_spectrum: impacts on stops are impulses on the structure, which samples of"
             " its acceleration do not contain"
         )
+    if floor == 0 and not _base_slides(response):
+        return changed(motion, name=f"base, {motion.name}".rstrip(", "))
     times = response.time
+    if not (np.diff(times) > 0).all():
+        raise ValueError(
+            "response_spectrum: samples of a structure do not show what happens at a jump of the"
+            f" ground motion between two samples of equal time, as '{motion.name}' has; give one"
+            " with increasing times"
+        )
     if floor == 0:
-        acceleration = response.base_acceleration
-        if _base_slides(response):
-            times, acceleration = _with_midpoints(response)
+        times, acceleration = _with_midpoints(response)
     elif not has_floors(response):
         raise ValueError(
             f"response_spectrum: the structure has no floors, got floor={floor}; give"

@@ -10,12 +10,15 @@
 #include <vector>
 
 #include "stickslip/base/error.hpp"
+#include "stickslip/base/min_max.hpp"
 
 namespace stickslip::detail {
 
 /// The order of times at which states are wanted.
+/// @param samples  time of the last sample, which may be later than the end [s]
 /// @throws std::invalid_argument  a time outside of the response
-inline std::vector<std::size_t> order_of(std::span<const double> times, double begin, double end) {
+inline std::vector<std::size_t> order_of(std::span<const double> times, double begin, double end, double samples) {
+  end = std::max(end, samples);
   for (const double time : times)
     require(time >= begin && time <= end,
             "states at times: must be from " + shortest(begin) + " to " + shortest(end) +
