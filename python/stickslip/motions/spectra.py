@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from typing import TYPE_CHECKING, Any, Literal, SupportsIndex, overload
 
 from .. import _core
@@ -18,7 +19,6 @@ from .._core import (
     integrate,
 )
 from .._core import _ground_motion as ground_motion
-from .._numbers import whole_number
 from .records import changed
 
 if TYPE_CHECKING:
@@ -179,10 +179,7 @@ def response_spectrum(
                 "response_spectrum: direction needs a ground motion or a response with two"
                 " horizontal components"
             )
-        if floor is None:
-            felt = _sliding_mass(motion)
-        else:
-            felt = _floor(motion, whole_number(floor, "response_spectrum: floor", least=0))
+        felt = _sliding_mass(motion) if floor is None else _floor(motion, floor)
         found = spectrum(felt, periods, damping, kind=kind)
     elif floor is not None:
         raise ValueError(
@@ -194,7 +191,9 @@ def response_spectrum(
     return found
 
 
-def _floor(response: StructureResponse, floor: int, *, vertical: bool = False) -> GroundMotion:
+def _floor(
+    response: StructureResponse, floor: SupportsIndex, *, vertical: bool = False
+) -> GroundMotion:
     """The absolute acceleration of a floor, along straight lines; after the last sample it is zero.
 
     Parameters
@@ -221,6 +220,9 @@ def _floor(response: StructureResponse, floor: int, *, vertical: bool = False) -
             "response_spectrum: impacts on stops are impulses on the structure, which samples of"
             " its acceleration do not contain"
         )
+    if not isinstance(floor, SupportsIndex):
+        raise TypeError(f"response_spectrum: floor must be an integer, got {floor!r}")
+    floor = operator.index(floor)
     if floor == 0 and not _base_slides(response):
         return changed(motion, name=f"base, {motion.name}".rstrip(", "))
     times = response.time
