@@ -386,8 +386,9 @@ shows it, its `write` saves it as .gif, .mp4 or .html; see `stickslip.plotting.a
        .at_notes = " Round-off grows as `condition` says.",
        .columns = R"(The columns are `ground_acceleration_axis` and `ground_acceleration_transverse` [m/s^2],
     `vertical_ground_acceleration` [m/s^2] if it acted, `displacement_axis` and `displacement_transverse` [m],
-    `velocity_axis` and `velocity_transverse` [m/s], `acceleration_axis` and `acceleration_transverse` [m/s^2], `yaw` [rad], `yaw_rate` [rad/s], and for each caster that swivels
-    `heading_0` [rad] and so on, by the number of the support.)",
+    `velocity_axis` and `velocity_transverse` [m/s], `acceleration_axis` and `acceleration_transverse` [m/s^2], `yaw`
+    [rad], `yaw_rate` [rad/s], and for each caster that swivels `heading_0` [rad] and so on, by the number of the
+    support.)",
        .attributes = "`peak` and `peak_outline`",
        .results = R"(`peak` [m], `peak_time` [s], `peak_yaw` [rad], `peak_outline` [m], `peak_outline_time` [s],
     `peak_corner`, `reach_outline` [m], `residual` [m], `residual_yaw` [rad], `time_moving` [s], `rests`, `at_rest`,

@@ -154,8 +154,7 @@ The values are nested lists of shape (D, P); every number reads back as the same
         if (!py::isinstance<ResponseWithInputs>(motion))
           throw py::type_error(
               "response_spectrum: motion must be a GroundMotion, a Suite, or the response of a slider, a structure or "
-              "a "
-              "cart, got " +
+              "a cart, got " +
               py::repr(motion).cast<std::string>());
         const auto& response = motion.cast<const ResponseWithInputs&>();
         const FloorMotion floor = with_inputs(response, [&](const auto& slider, const auto& ground) {
